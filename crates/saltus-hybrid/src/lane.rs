@@ -1,0 +1,175 @@
+//! The bookkeeping of one trajectory, shared by all steppers: time, modes, counters, the task.
+
+use crate::event::{Firing, Guarded, Touches};
+use crate::run::{End, IntegrateError, Leg, Options, Sample, Status, Switch, SwitchKind, Task};
+use crate::system::{Evaluator, Point, System};
+
+/// A trajectory under way.
+pub(crate) struct Lane<T> {
+    pub(crate) task: T,
+    pub(crate) system: System,
+    pub(crate) guarded: Guarded,
+    pub(crate) wants_steps: bool,
+    /// Time since the start of the period.
+    pub(crate) time: f64,
+    pub(crate) period: u64,
+    periods: u64,
+    evaluator: Evaluator,
+    dwell: Vec<Vec<f64>>,
+    /// Steps and switches of this period.
+    recent_steps: u32,
+    recent_switches: u32,
+    steps: u64,
+    switches: u64,
+    tangencies: u64,
+    /// Last finite state.
+    good: Vec<f64>,
+    good_time: f64,
+}
+
+/// What became of a lane after a step.
+pub(crate) enum Next {
+    /// It goes on; the state may have been changed.
+    Go,
+    /// The leg is over.
+    Over(Status),
+}
+
+impl<T: Task> Lane<T> {
+    pub(crate) fn new(task: T, leg: &Leg) -> Result<Self, IntegrateError> {
+        let (got, expected) = (leg.start.x.len(), leg.system.state_len());
+        if got != expected || leg.start.modes.len() != leg.system.unit_count() {
+            return Err(IntegrateError::Start { got, expected });
+        }
+        let structure = &leg.system.structure;
+        Ok(Self {
+            wants_steps: task.wants_steps(),
+            task,
+            system: leg.system.clone(),
+            guarded: Guarded::new(structure, &leg.start.modes),
+            time: 0.0,
+            period: 0,
+            periods: leg.periods,
+            evaluator: Evaluator::new(&leg.system),
+            dwell: structure.units.iter().map(|modes| vec![0.0; modes.len()]).collect(),
+            recent_steps: 0,
+            recent_switches: 0,
+            steps: 0,
+            switches: 0,
+            tangencies: 0,
+            good: leg.start.x.clone(),
+            good_time: 0.0,
+        })
+    }
+
+    /// Time since the start of the run.
+    fn total_time(&self) -> f64 {
+        self.period as f64 * self.system.period + self.time
+    }
+
+    /// Whether nothing is left to run.
+    pub(crate) fn is_over(&self) -> bool {
+        self.period >= self.periods
+    }
+
+    /// The state that will be reported should the next step fail.
+    pub(crate) fn not_finite(&self, bad: usize) -> Status {
+        Status::NotFinite { time: self.good_time, state: bad }
+    }
+
+    pub(crate) fn touched(&mut self, touches: Touches, length: f64) {
+        if touches.count > 0 {
+            self.tangencies += u64::from(touches.count);
+            self.task.switch(&Switch {
+                period: self.period,
+                time: self.time + touches.theta * length,
+                unit: touches.unit,
+                kind: SwitchKind::Tangency,
+                x: &[],
+            });
+        }
+    }
+
+    /// Books an accepted step to state `x`: time, switch, sample. `x` may be changed by a reset or
+    /// by the drive's return to phase 0.
+    pub(crate) fn accept(
+        &mut self,
+        options: &Options,
+        length: f64,
+        firing: Option<Firing>,
+        period_ends: bool,
+        x: &mut [f64],
+    ) -> Next {
+        if let Some(bad) = x.iter().position(|v| !v.is_finite()) {
+            return Next::Over(self.not_finite(bad));
+        }
+        self.time = if period_ends { self.system.period } else { self.time + length };
+        for (dwell, &mode) in self.dwell.iter_mut().zip(&self.guarded.modes) {
+            dwell[mode] += length;
+        }
+        self.steps += 1;
+        self.recent_steps += 1;
+        if let Some(firing) = firing {
+            self.switch(firing, x);
+        }
+        self.good.copy_from_slice(x);
+        self.good_time = self.total_time();
+        if self.recent_switches > options.max_switches {
+            let count = self.recent_switches;
+            return Next::Over(Status::Chattering { time: self.good_time, count });
+        }
+        if self.recent_steps > options.max_steps {
+            let count = self.recent_steps;
+            return Next::Over(Status::TooManySteps { time: self.good_time, count });
+        }
+        if period_ends { self.end_period(x) } else { Next::Go }
+    }
+
+    fn switch(&mut self, firing: Firing, x: &mut [f64]) {
+        let unit = firing.unit;
+        let from = self.guarded.modes[unit];
+        let structure = std::sync::Arc::clone(&self.system.structure);
+        let watch = &structure.units[unit][from][firing.watch];
+        let (period, time) = (self.period, self.time);
+        let kind = SwitchKind::Mode { from, to: watch.to };
+        self.task.switch(&Switch { period, time, unit, kind, x });
+        if !watch.resets.is_empty() {
+            let nodes = self.evaluator.nodes(&self.guarded.modes, x);
+            for &(state, node) in &watch.resets {
+                x[state] = nodes[node];
+            }
+        }
+        self.guarded.fire(&structure, &firing);
+        self.switches += 1;
+        self.recent_switches += 1;
+    }
+
+    fn end_period(&mut self, x: &mut [f64]) -> Next {
+        if let Some((cos, sin)) = self.system.structure.drive {
+            (x[cos], x[sin]) = (1.0, 0.0);
+        }
+        self.time = 0.0;
+        self.period += 1;
+        self.recent_steps = 0;
+        self.recent_switches = 0;
+        let sample =
+            Sample { period: self.period, modes: &self.guarded.modes, x, dwell: &self.dwell };
+        let go_on = self.task.sample(&sample);
+        self.dwell.iter_mut().for_each(|d| d.fill(0.0));
+        self.good.copy_from_slice(x);
+        if go_on && !self.is_over() { Next::Go } else { Next::Over(Status::Completed) }
+    }
+
+    /// Reports the end of the leg; the task's next one, if any, and the task.
+    pub(crate) fn finish(mut self, status: Status) -> (T, Option<Leg>) {
+        let next = self.task.end(End {
+            status,
+            point: Point { modes: self.guarded.modes, x: self.good },
+            periods: self.period,
+            steps: self.steps,
+            switches: self.switches,
+            tangencies: self.tangencies,
+        });
+        (self.task, next)
+    }
+}

@@ -1,0 +1,22 @@
+//! Engine for forced piecewise-smooth flows.
+//!
+//! Describe a system once with [`SystemBuilder`]; integrate it with exactly located switches by
+//! [`integrate`], one trajectory or many. Nothing here knows a plate, a person or a unit of measure.
+
+mod arith;
+mod event;
+mod lane;
+mod polynomial;
+mod record;
+mod rk4;
+mod run;
+mod series;
+mod system;
+mod taylor;
+pub mod testing;
+
+pub use record::{Recording, RecordedSwitch, record};
+pub use run::{
+    End, IntegrateError, Leg, Method, Options, Sample, Status, Step, Switch, SwitchKind, Task, integrate,
+};
+pub use system::{BuildError, Evaluator, Mode, Node, Point, System, SystemBuilder, Transition, Unit};

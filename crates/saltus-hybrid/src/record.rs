@@ -1,0 +1,83 @@
+//! One trajectory, kept: every sample and every switch.
+
+use std::sync::atomic::AtomicBool;
+
+use crate::run::{End, IntegrateError, Leg, Options, Sample, Switch, SwitchKind, Task, integrate};
+use crate::system::Point;
+
+/// A switch as kept.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RecordedSwitch {
+    /// Time since the start of the run.
+    pub time: f64,
+    /// Which unit.
+    pub unit: usize,
+    /// What happened.
+    pub kind: SwitchKind,
+}
+
+/// Everything about one trajectory but its dense output.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recording {
+    /// State at the end of each period.
+    pub samples: Vec<Point>,
+    /// Switches and tangencies in time order.
+    pub switches: Vec<RecordedSwitch>,
+    /// How it ended.
+    pub end: End,
+}
+
+struct Recorder {
+    leg: Option<Leg>,
+    period: f64,
+    samples: Vec<Point>,
+    switches: Vec<RecordedSwitch>,
+    end: Option<End>,
+}
+
+impl Task for Recorder {
+    fn begin(&mut self) -> Option<Leg> {
+        self.leg.take()
+    }
+    fn sample(&mut self, sample: &Sample<'_>) -> bool {
+        self.samples.push(Point { modes: sample.modes.to_vec(), x: sample.x.to_vec() });
+        true
+    }
+    fn switch(&mut self, switch: &Switch<'_>) {
+        let time = switch.period as f64 * self.period + switch.time;
+        self.switches.push(RecordedSwitch { time, unit: switch.unit, kind: switch.kind });
+    }
+    fn end(&mut self, end: End) -> Option<Leg> {
+        self.end = Some(end);
+        None
+    }
+}
+
+/// Runs one leg and keeps its samples and switches.
+///
+/// # Errors
+/// As [`integrate`].
+///
+/// ```
+/// use saltus_hybrid::{Leg, Options, Status, record, testing};
+/// let ball = testing::bouncing_ball(9.81, 0.8, 10.0);
+/// let start = ball.point(&[0], &[1.0, 0.0]);
+/// let run = record(&Leg { system: ball, start, periods: 1 }, &Options::default())?;
+/// // Infinitely many bounces in finite time: the run says so and stops.
+/// assert!(matches!(run.end.status, Status::Chattering { .. }));
+/// # Ok::<(), saltus_hybrid::IntegrateError>(())
+/// ```
+pub fn record(leg: &Leg, options: &Options) -> Result<Recording, IntegrateError> {
+    let recorder = Recorder {
+        period: leg.system.period(),
+        leg: Some(leg.clone()),
+        samples: Vec::new(),
+        switches: Vec::new(),
+        end: None,
+    };
+    let mut out = None;
+    integrate(options, [recorder], &AtomicBool::new(false), |task| out = Some(task))?;
+    let task = out.ok_or(IntegrateError::Interrupted)?;
+    let end = task.end.ok_or(IntegrateError::Interrupted)?;
+    Ok(Recording { samples: task.samples, switches: task.switches, end })
+}

@@ -1,0 +1,228 @@
+//! Classical Runge-Kutta of order 4 with switches located inside the step.
+//!
+//! The solution within a step is RK4 itself with a shorter step: of order 4 everywhere, so a switch
+//! costs no order. A cubic Hermite interpolant of each guard says where to look; Newton on the
+//! method's own solution says where it is.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use crate::arith::Scalar;
+use crate::event::Firing;
+use crate::lane::{Lane, Next};
+use crate::polynomial::BernsteinTable;
+use crate::run::{IntegrateError, Leg, Options, Step, Task, check_stop};
+use crate::series::{expand, values};
+use crate::system::{Structure, Watch};
+
+/// Degree of the interpolant.
+const HERMITE: usize = 3;
+
+/// Runs a task to its end.
+pub(crate) fn run<T: Task>(
+    options: &Options,
+    steps_per_period: u32,
+    mut task: T,
+    stop: &AtomicBool,
+) -> Result<T, IntegrateError> {
+    let mut next = task.begin();
+    while let Some(leg) = next {
+        (task, next) = run_leg(options, steps_per_period, task, &leg, stop)?;
+    }
+    Ok(task)
+}
+
+fn run_leg<T: Task>(
+    options: &Options,
+    steps_per_period: u32,
+    task: T,
+    leg: &Leg,
+    stop: &AtomicBool,
+) -> Result<(T, Option<Leg>), IntegrateError> {
+    let table = BernsteinTable::new(HERMITE);
+    let structure = Arc::clone(&leg.system.structure);
+    let mut lane = Lane::new(task, leg)?;
+    let mut stepper = Stepper::new(&structure, leg.system.period);
+    let mut x = leg.start.x.clone();
+    let mut slot = 1;
+    let mut dense = Vec::new();
+    if lane.is_over() {
+        return Ok(lane.finish(crate::Status::Completed));
+    }
+    loop {
+        check_stop(stop)?;
+        let target = leg.system.period * f64::from(slot) / f64::from(steps_per_period);
+        let h = target - lane.time;
+        stepper.coefficients = leg.system.coefficients_in(&lane.guarded.modes);
+        stepper.open(&structure, &x);
+        stepper.step(&structure, lane.time, h, &mut x);
+        stepper.close(&structure, &x);
+        let (mut firing, touches) = lane.guarded.next(&structure, &table, HERMITE, |watch, power| {
+            power.copy_from_slice(&stepper.guard(watch.guard_node(&structure), h));
+            true
+        });
+        lane.touched(touches, h);
+        if let Some(found) = firing {
+            let watch = &structure.units[found.unit][lane.guarded.modes[found.unit]][found.watch];
+            firing = stepper.polish(&structure, watch, lane.time, h, found, &mut x);
+        }
+        let length = firing.map_or(h, |f| f.theta * h);
+        if length > 0.0 {
+            if lane.wants_steps {
+                stepper.interpolate(&structure, length, &mut dense);
+                let (period, time) = (lane.period, lane.time);
+                let modes = &lane.guarded.modes;
+                lane.task.step(&Step { period, time, length, modes, degree: HERMITE, power: &dense });
+            }
+            lane.guarded.advanced(|guard| stepper.size(structure.guards[guard], length));
+        }
+        let on_grid = firing.is_none_or(|f| f.theta == 1.0);
+        let period_ends = on_grid && slot == steps_per_period;
+        match lane.accept(options, length, firing, period_ends, &mut x) {
+            Next::Over(status) => return Ok(lane.finish(status)),
+            Next::Go if period_ends => slot = 1,
+            Next::Go if on_grid => slot += 1,
+            Next::Go => {}
+        }
+    }
+}
+
+/// Buffers of one trajectory. Nodes are kept with their first time derivative, two numbers each.
+struct Stepper {
+    omega: f64,
+    coefficients: Vec<f64>,
+    start: Vec<f64>,
+    end: Vec<f64>,
+    stage: Vec<f64>,
+    rate: Vec<f64>,
+    sum: Vec<f64>,
+}
+
+impl Stepper {
+    fn new(structure: &Structure, period: f64) -> Self {
+        let (nodes, states) = (structure.nodes(), structure.states);
+        Self {
+            omega: std::f64::consts::TAU / period,
+            coefficients: Vec::new(),
+            start: vec![0.0; 2 * nodes],
+            end: vec![0.0; 2 * nodes],
+            stage: vec![0.0; nodes],
+            rate: vec![0.0; states],
+            sum: vec![0.0; states],
+        }
+    }
+
+    fn open(&mut self, structure: &Structure, x: &[f64]) {
+        linearize(structure, &self.coefficients, x, &mut self.start);
+    }
+
+    fn close(&mut self, structure: &Structure, x: &[f64]) {
+        linearize(structure, &self.coefficients, x, &mut self.end);
+    }
+
+    /// The drive's states are known exactly at every time.
+    fn drive(&self, structure: &Structure, time: f64, x: &mut [f64]) {
+        if let Some((cos, sin)) = structure.drive {
+            (x[sin], x[cos]) = (self.omega * time).sin_cos();
+        }
+    }
+
+    /// One step of length `h` from the opened point at time `t`.
+    fn step(&mut self, structure: &Structure, t: f64, h: f64, x: &mut [f64]) {
+        let states = structure.states;
+        for i in 0..states {
+            self.rate[i] = self.start[2 * i + 1];
+            self.sum[i] = self.rate[i];
+        }
+        for (fraction, weight) in [(0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {
+            for i in 0..states {
+                self.stage[i] = self.start[2 * i] + fraction * h * self.rate[i];
+            }
+            let mut stage = std::mem::take(&mut self.stage);
+            self.drive(structure, t + fraction * h, &mut stage);
+            values(structure, &self.coefficients, &mut stage);
+            for i in 0..states {
+                self.rate[i] = stage[structure.derivative[i]];
+                self.sum[i] += weight * self.rate[i];
+            }
+            self.stage = stage;
+        }
+        for i in 0..states {
+            x[i] = self.start[2 * i] + h / 6.0 * self.sum[i];
+        }
+        self.drive(structure, t + h, x);
+    }
+
+    /// Power coefficients, in the fraction of the step, of the cubic through both ends.
+    fn guard(&self, node: usize, h: f64) -> [f64; HERMITE + 1] {
+        let (g0, d0) = (self.start[2 * node], h * self.start[2 * node + 1]);
+        let (g1, d1) = (self.end[2 * node], h * self.end[2 * node + 1]);
+        [g0, d0, 3.0 * (g1 - g0) - 2.0 * d0 - d1, 2.0 * (g0 - g1) + d0 + d1]
+    }
+
+    /// A guard's value at the end of the step, and the size of what it is the sum of.
+    fn size(&self, node: usize, h: f64) -> (f64, f64) {
+        let size = self.guard(node, h).iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+        (self.end[2 * node], size)
+    }
+
+    /// Moves a switch from the interpolant's root to the root of the guard along RK4 itself; `x`
+    /// becomes the state there. `None` if that root lies beyond the step.
+    fn polish(
+        &mut self,
+        structure: &Structure,
+        watch: &Watch,
+        t: f64,
+        h: f64,
+        found: Firing,
+        x: &mut [f64],
+    ) -> Option<Firing> {
+        let node = watch.guard_node(structure);
+        let mut theta = found.theta;
+        if theta > 0.0 {
+            for _ in 0..20 {
+                self.step(structure, t, theta * h, x);
+                self.close(structure, x);
+                let newton = self.end[2 * node] / (h * self.end[2 * node + 1]);
+                if !newton.is_finite() || newton.abs() > 0.5 || theta - newton <= 0.0 {
+                    break; // nearly tangent: the interpolant's root is as good
+                }
+                theta -= newton;
+                if newton.abs() <= 2.0 * f64::EPSILON {
+                    break;
+                }
+            }
+            if theta > 1.0 + 1e-12 {
+                self.step(structure, t, h, x);
+                self.close(structure, x);
+                return None;
+            }
+            theta = theta.min(1.0);
+        }
+        self.step(structure, t, theta * h, x);
+        self.close(structure, x);
+        Some(Firing { theta, ..found })
+    }
+
+    /// Cubics in time of all states over a step of length `h`.
+    fn interpolate(&self, structure: &Structure, h: f64, out: &mut Vec<f64>) {
+        out.clear();
+        for state in 0..structure.states {
+            let mut power = self.guard(state, h);
+            let mut scale = 1.0;
+            for a in &mut power {
+                *a *= scale;
+                scale /= h;
+            }
+            out.extend(power);
+        }
+    }
+}
+
+/// All nodes at `x` with their first time derivative where the guards and the states need it.
+fn linearize(structure: &Structure, coefficients: &[f64], x: &[f64], out: &mut [f64]) {
+    for (i, &value) in x.iter().enumerate() {
+        out[2 * i] = value;
+    }
+    expand(Scalar, structure, coefficients, out, 1);
+}

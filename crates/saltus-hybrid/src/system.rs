@@ -1,0 +1,537 @@
+//! A forced hybrid system as a short straight-line program: the one description from which values,
+//! Taylor coefficients and lanes are computed.
+//!
+//! A state x obeys x' = f(x, cos(Omega t), sin(Omega t)), f being built from sums and products, so
+//! that it is polynomial. What can switch is a [`Unit`]: a small automaton whose mode selects some
+//! of the coefficients ([`SystemBuilder::gate`]). A mode lasts while each of its guards is positive.
+
+use std::sync::Arc;
+
+/// A quantity of the program: a state or the result of an operation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// State by index.
+    State(usize),
+    /// Operation by index.
+    Op(usize),
+}
+
+/// Something that switches on its own, such as one person's contact with the floor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unit(pub(crate) usize);
+
+/// A mode of a unit, by its place in the list given to [`SystemBuilder::unit`].
+pub type Mode = usize;
+
+/// What ends a mode, and what happens then.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transition {
+    /// The quantity watched.
+    pub guard: Node,
+    /// +1 if the mode lasts while the guard is positive, -1 if while it is negative.
+    pub sign: f64,
+    /// The mode that follows.
+    pub to: Mode,
+    /// States that jump: x := value of the node, all evaluated before the first assignment.
+    pub resets: Vec<(usize, Node)>,
+    /// Guards that are zero after the switch by construction, with the multiplicity of that zero.
+    /// The guard that fired is one of them without being named.
+    pub vanishing: Vec<(Node, u8)>,
+}
+
+impl Transition {
+    /// Leave for `to` when `guard` falls to zero.
+    pub fn falling(guard: Node, to: Mode) -> Self {
+        Self { guard, sign: 1.0, to, resets: Vec::new(), vanishing: Vec::new() }
+    }
+
+    /// Leave for `to` when `guard` rises to zero.
+    pub fn rising(guard: Node, to: Mode) -> Self {
+        Self { sign: -1.0, ..Self::falling(guard, to) }
+    }
+
+    /// With `state` := `value` at the switch.
+    #[must_use]
+    pub fn reset(mut self, state: usize, value: Node) -> Self {
+        self.resets.push((state, value));
+        self
+    }
+
+    /// With `guard` zero to `multiplicity` after the switch.
+    #[must_use]
+    pub fn vanishing(mut self, guard: Node, multiplicity: u8) -> Self {
+        self.vanishing.push((guard, multiplicity));
+        self
+    }
+}
+
+/// Why a builder's parts do not make a system.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BuildError {
+    /// A state without a derivative.
+    #[error("state {0} has no derivative")]
+    NoDerivative(usize),
+    /// A state, operation, unit or mode that does not exist or comes later in the program.
+    #[error("{0} is not defined at that point of the program")]
+    Undefined(String),
+    /// A coefficient that is not a finite number.
+    #[error("coefficient {index} is {value}: a finite number is needed")]
+    NotFinite {
+        /// Its index.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// A period that is not positive.
+    #[error("the period is {0}: a positive number is needed")]
+    Period(f64),
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Op {
+    /// node = c + sum of coefficient times node; `constant` is a coefficient index.
+    Linear { constant: usize, terms: (usize, usize) },
+    /// node = sum of products.
+    Dot { pairs: (usize, usize) },
+}
+
+/// A transition with everything resolved to indices.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Watch {
+    pub(crate) guard: usize,
+    pub(crate) sign: f64,
+    pub(crate) to: Mode,
+    pub(crate) resets: Vec<(usize, usize)>,
+    pub(crate) vanishing: Vec<(usize, u8)>,
+}
+
+impl Watch {
+    /// Flat node index of the guard.
+    pub(crate) fn guard_node(&self, structure: &Structure) -> usize {
+        structure.guards[self.guard]
+    }
+}
+
+/// The program without its numbers: shared by all members of an ensemble.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Structure {
+    pub(crate) states: usize,
+    /// States that take part in error control: all but the quadratures, which come last.
+    pub(crate) controlled: usize,
+    pub(crate) ops: Vec<Op>,
+    pub(crate) terms: Vec<(usize, usize)>,
+    pub(crate) pairs: Vec<(usize, usize)>,
+    /// Flat node index of each state's derivative.
+    pub(crate) derivative: Vec<usize>,
+    /// Flat node indices of all guards.
+    pub(crate) guards: Vec<usize>,
+    /// Operations that the guards need, in program order.
+    pub(crate) guard_ops: Vec<usize>,
+    /// Transitions of each mode of each unit.
+    pub(crate) units: Vec<Vec<Vec<Watch>>>,
+    /// (coefficient, unit, offset of its table in `Values::tables`).
+    pub(crate) switched: Vec<(usize, usize, usize)>,
+    /// States that hold cos and sin of the drive, if it is driven.
+    pub(crate) drive: Option<(usize, usize)>,
+}
+
+impl Structure {
+    pub(crate) fn nodes(&self) -> usize {
+        self.states + self.ops.len()
+    }
+}
+
+/// A system: a structure and its numbers. Cheap to clone.
+#[derive(Clone, Debug)]
+pub struct System {
+    pub(crate) structure: Arc<Structure>,
+    pub(crate) coefficients: Arc<[f64]>,
+    pub(crate) tables: Arc<[f64]>,
+    pub(crate) period: f64,
+}
+
+impl System {
+    /// Forcing period 2 pi/Omega, or the sampling interval of a system that is not driven.
+    pub fn period(&self) -> f64 {
+        self.period
+    }
+
+    /// Length of the state vector, drive and quadratures included.
+    pub fn state_len(&self) -> usize {
+        self.structure.states
+    }
+
+    /// Number of units that switch.
+    pub fn unit_count(&self) -> usize {
+        self.structure.units.len()
+    }
+
+    /// Whether both have the same program, so that they may share a run.
+    pub fn same_structure(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.structure, &other.structure) || self.structure == other.structure
+    }
+
+    /// This system with the structure object of `other`, if they are equal: makes later comparisons cheap.
+    #[must_use]
+    pub fn sharing(mut self, other: &Self) -> Self {
+        if self.same_structure(other) {
+            self.structure = Arc::clone(&other.structure);
+        }
+        self
+    }
+
+    /// A point with the drive at phase 0 and quadratures at 0; `x` holds the states declared by
+    /// [`SystemBuilder::state`], in order.
+    ///
+    /// # Panics
+    /// If `x` or `modes` are longer than the system's.
+    pub fn point(&self, modes: &[Mode], x: &[f64]) -> Point {
+        assert!(x.len() <= self.structure.states && modes.len() == self.structure.units.len());
+        let mut state = vec![0.0; self.structure.states];
+        state[..x.len()].copy_from_slice(x);
+        if let Some((cos, sin)) = self.structure.drive {
+            (state[cos], state[sin]) = (1.0, 0.0);
+        }
+        Point { modes: modes.to_vec(), x: state }
+    }
+
+    /// Coefficients in force for these modes.
+    pub(crate) fn coefficients_in(&self, modes: &[Mode]) -> Vec<f64> {
+        let mut out = self.coefficients.to_vec();
+        for &(slot, unit, table) in &self.structure.switched {
+            out[slot] = self.tables[table + modes[unit]];
+        }
+        out
+    }
+
+    /// Flat index of a node in the output of [`Evaluator::nodes`].
+    pub fn index(&self, node: Node) -> usize {
+        match node {
+            Node::State(i) => i,
+            Node::Op(i) => self.structure.states + i,
+        }
+    }
+}
+
+/// Phase and state together; neither means anything alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Mode of each unit.
+    pub modes: Vec<Mode>,
+    /// State, drive and quadratures included.
+    pub x: Vec<f64>,
+}
+
+/// Values of all nodes at a point. Keeps its buffers.
+#[derive(Clone, Debug)]
+pub struct Evaluator {
+    system: System,
+    modes: Vec<Mode>,
+    coefficients: Vec<f64>,
+    nodes: Vec<f64>,
+}
+
+impl Evaluator {
+    /// For this system.
+    pub fn new(system: &System) -> Self {
+        let modes = vec![0; system.unit_count()];
+        Self {
+            coefficients: system.coefficients_in(&modes),
+            modes,
+            nodes: vec![0.0; system.structure.nodes()],
+            system: system.clone(),
+        }
+    }
+
+    /// Every node at (modes, x), states first; see [`System::index`].
+    pub fn nodes(&mut self, modes: &[Mode], x: &[f64]) -> &[f64] {
+        if self.modes != modes {
+            self.modes.copy_from_slice(modes);
+            self.coefficients = self.system.coefficients_in(modes);
+        }
+        let structure = &self.system.structure;
+        self.nodes[..structure.states].copy_from_slice(&x[..structure.states]);
+        crate::series::values(structure, &self.coefficients, &mut self.nodes);
+        &self.nodes
+    }
+
+    /// Time derivative of the state at (modes, x).
+    pub fn derivative(&mut self, modes: &[Mode], x: &[f64], dx: &mut [f64]) {
+        self.nodes(modes, x);
+        for (out, &node) in dx.iter_mut().zip(&self.system.structure.derivative) {
+            *out = self.nodes[node];
+        }
+    }
+}
+
+/// Collects the parts of a [`System`].
+///
+/// ```
+/// use saltus_hybrid::{SystemBuilder, Transition};
+/// // A ball under gravity 1 that bounces with restitution 0.8.
+/// let mut b = SystemBuilder::new(2);
+/// let (height, speed) = (b.state(0), b.state(1));
+/// let fall = b.linear(-1.0, &[]);
+/// let rebound = b.linear(0.0, &[(-0.8, speed)]);
+/// b.derivative(0, speed);
+/// b.derivative(1, fall);
+/// b.unit(vec![vec![Transition::falling(height, 0).reset(1, rebound)]]);
+/// let ball = b.build(10.0)?;
+/// assert_eq!(ball.state_len(), 2);
+/// # Ok::<(), saltus_hybrid::BuildError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct SystemBuilder {
+    declared: usize,
+    drive: Option<f64>,
+    quadratures: Vec<Node>,
+    derivative: Vec<Option<Node>>,
+    ops: Vec<RawOp>,
+    coefficients: Vec<f64>,
+    switched: Vec<(usize, usize, Vec<f64>)>,
+    units: Vec<Vec<Vec<Transition>>>,
+}
+
+#[derive(Clone, Debug)]
+enum RawOp {
+    Linear { constant: usize, terms: Vec<(usize, Node)> },
+    Dot(Vec<(Node, Node)>),
+}
+
+impl SystemBuilder {
+    /// A system of `states` states.
+    pub fn new(states: usize) -> Self {
+        Self {
+            declared: states,
+            drive: None,
+            quadratures: Vec::new(),
+            derivative: vec![None; states],
+            ops: Vec::new(),
+            coefficients: Vec::new(),
+            switched: Vec::new(),
+            units: Vec::new(),
+        }
+    }
+
+    /// The node of state `index`.
+    pub fn state(&self, index: usize) -> Node {
+        Node::State(index)
+    }
+
+    /// Drives the system at angular frequency `omega`; gives cos(omega t) and sin(omega t).
+    /// Call it once, before any quadrature.
+    pub fn drive(&mut self, omega: f64) -> (Node, Node) {
+        debug_assert!(self.drive.is_none() && self.quadratures.is_empty());
+        self.drive = Some(omega);
+        let (cos, sin) = (Node::State(self.declared), Node::State(self.declared + 1));
+        let dcos = self.linear(0.0, &[(-omega, sin)]);
+        let dsin = self.linear(0.0, &[(omega, cos)]);
+        self.derivative.extend([Some(dcos), Some(dsin)]);
+        (cos, sin)
+    }
+
+    fn coefficient(&mut self, value: f64) -> usize {
+        self.coefficients.push(value);
+        self.coefficients.len() - 1
+    }
+
+    fn push(&mut self, op: RawOp) -> Node {
+        self.ops.push(op);
+        Node::Op(self.ops.len() - 1)
+    }
+
+    /// constant + sum of coefficient times node.
+    pub fn linear(&mut self, constant: f64, terms: &[(f64, Node)]) -> Node {
+        let constant = self.coefficient(constant);
+        let terms = terms.iter().map(|&(c, node)| (self.coefficient(c), node)).collect();
+        self.push(RawOp::Linear { constant, terms })
+    }
+
+    /// Sum of products of two nodes each.
+    pub fn dot(&mut self, pairs: &[(Node, Node)]) -> Node {
+        self.push(RawOp::Dot(pairs.to_vec()))
+    }
+
+    /// `node` times a number that depends on the mode of `unit`, one for each mode.
+    pub fn gate(&mut self, unit: Unit, by_mode: &[f64], node: Node) -> Node {
+        let out = self.linear(0.0, &[(by_mode[0], node)]);
+        self.switched.push((self.coefficients.len() - 1, unit.0, by_mode.to_vec()));
+        out
+    }
+
+    /// Sets x' of state `index`.
+    pub fn derivative(&mut self, index: usize, value: Node) {
+        self.derivative[index] = Some(value);
+    }
+
+    /// Announces a unit, so that gates can name it before its guards exist.
+    pub fn reserve_unit(&mut self) -> Unit {
+        self.units.push(Vec::new());
+        Unit(self.units.len() - 1)
+    }
+
+    /// The modes of a reserved unit, each a list of what ends it.
+    pub fn define_unit(&mut self, unit: Unit, modes: Vec<Vec<Transition>>) {
+        self.units[unit.0] = modes;
+    }
+
+    /// A unit with its modes, each a list of what ends it.
+    pub fn unit(&mut self, modes: Vec<Vec<Transition>>) -> Unit {
+        let unit = self.reserve_unit();
+        self.define_unit(unit, modes);
+        unit
+    }
+
+    /// The time integral of `integrand`, kept out of the error control: the rest of the state is
+    /// the same to the bit with and without it. Call it after [`Self::drive`].
+    pub fn quadrature(&mut self, integrand: Node) -> usize {
+        self.quadratures.push(integrand);
+        self.derivative.push(Some(integrand));
+        self.derivative.len() - 1
+    }
+
+    /// The system; `period` is the sampling interval where nothing drives it, else it is 2 pi/omega.
+    ///
+    /// # Errors
+    /// [`BuildError`] names the part that is missing or wrong.
+    pub fn build(self, period: f64) -> Result<System, BuildError> {
+        let period = self.drive.map_or(period, |omega| std::f64::consts::TAU / omega);
+        if !(period > 0.0 && period.is_finite()) {
+            return Err(BuildError::Period(period));
+        }
+        if let Some(index) = self.coefficients.iter().position(|c| !c.is_finite()) {
+            return Err(BuildError::NotFinite { index, value: self.coefficients[index] });
+        }
+        let states = self.derivative.len();
+        let total = self.ops.len();
+        let flat = |node: Node, before: usize| match node {
+            Node::State(i) if i < states => Ok(i),
+            Node::Op(i) if i < before => Ok(states + i),
+            other => Err(BuildError::Undefined(format!("{other:?}"))),
+        };
+        let (mut ops, mut terms, mut pairs) = (Vec::new(), Vec::new(), Vec::new());
+        for (i, op) in self.ops.iter().enumerate() {
+            match op {
+                RawOp::Linear { constant, terms: list } => {
+                    let start = terms.len();
+                    for &(c, node) in list {
+                        terms.push((c, flat(node, i)?));
+                    }
+                    ops.push(Op::Linear { constant: *constant, terms: (start, terms.len()) });
+                }
+                RawOp::Dot(list) => {
+                    let start = pairs.len();
+                    for &(a, b) in list {
+                        pairs.push((flat(a, i)?, flat(b, i)?));
+                    }
+                    ops.push(Op::Dot { pairs: (start, pairs.len()) });
+                }
+            }
+        }
+        let derivative = self
+            .derivative
+            .iter()
+            .enumerate()
+            .map(|(i, node)| flat(node.ok_or(BuildError::NoDerivative(i))?, total))
+            .collect::<Result<Vec<_>, _>>()?;
+        let mut guards: Vec<usize> = Vec::new();
+        let mut guard = |node: Node| {
+            let index = flat(node, total)?;
+            Ok(guards.iter().position(|&g| g == index).unwrap_or_else(|| {
+                guards.push(index);
+                guards.len() - 1
+            }))
+        };
+        let mut units = Vec::new();
+        for modes in &self.units {
+            let mut out = Vec::new();
+            for transitions in modes {
+                let mut watches = Vec::new();
+                for t in transitions {
+                    if t.to >= modes.len() {
+                        return Err(BuildError::Undefined(format!("mode {}", t.to)));
+                    }
+                    let own = guard(t.guard)?;
+                    let mut vanishing = vec![(own, 1)];
+                    for &(node, multiplicity) in &t.vanishing {
+                        vanishing.push((guard(node)?, multiplicity));
+                    }
+                    let resets = t
+                        .resets
+                        .iter()
+                        .map(|&(state, value)| Ok((state, flat(value, total)?)))
+                        .collect::<Result<Vec<_>, BuildError>>()?;
+                    watches.push(Watch { guard: own, sign: t.sign, to: t.to, resets, vanishing });
+                }
+                out.push(watches);
+            }
+            units.push(out);
+        }
+        let mut tables = Vec::new();
+        let mut switched = Vec::new();
+        for (slot, unit, values) in &self.switched {
+            if self.units[*unit].len() != values.len() {
+                return Err(BuildError::Undefined(format!("a gate of unit {unit} in some mode")));
+            }
+            if let Some(&value) = values.iter().find(|v| !v.is_finite()) {
+                return Err(BuildError::NotFinite { index: *slot, value });
+            }
+            switched.push((*slot, *unit, tables.len()));
+            tables.extend(values);
+        }
+        let guard_ops = needed_by(&guards, states, &ops, &terms, &pairs);
+        Ok(System {
+            structure: Arc::new(Structure {
+                states,
+                controlled: states - self.quadratures.len(),
+                ops,
+                terms,
+                pairs,
+                derivative,
+                guards,
+                guard_ops,
+                units,
+                switched,
+                drive: self.drive.map(|_| (self.declared, self.declared + 1)),
+            }),
+            coefficients: self.coefficients.into(),
+            tables: tables.into(),
+            period,
+        })
+    }
+}
+
+/// Operations that these nodes depend on, in program order.
+fn needed_by(
+    nodes: &[usize],
+    states: usize,
+    ops: &[Op],
+    terms: &[(usize, usize)],
+    pairs: &[(usize, usize)],
+) -> Vec<usize> {
+    let mut needed = vec![false; ops.len()];
+    for &node in nodes {
+        if node >= states {
+            needed[node - states] = true;
+        }
+    }
+    for i in (0..ops.len()).rev() {
+        if !needed[i] {
+            continue;
+        }
+        let mut mark = |node: usize| {
+            if node >= states {
+                needed[node - states] = true;
+            }
+        };
+        match &ops[i] {
+            Op::Linear { terms: t, .. } => terms[t.0..t.1].iter().for_each(|&(_, n)| mark(n)),
+            Op::Dot { pairs: p } => pairs[p.0..p.1].iter().for_each(|&(a, b)| {
+                mark(a);
+                mark(b);
+            }),
+        }
+    }
+    (0..ops.len()).filter(|&i| needed[i]).collect()
+}
