@@ -6,6 +6,7 @@
 mod arith;
 mod event;
 mod lane;
+mod parallel;
 mod polynomial;
 mod record;
 mod rk4;
@@ -15,6 +16,7 @@ mod system;
 mod taylor;
 pub mod testing;
 
+pub use parallel::integrate_all;
 pub use record::{Recording, RecordedSwitch, record};
 pub use run::{
     End, IntegrateError, Leg, Method, Options, Sample, Status, Step, Switch, SwitchKind, Task, integrate,

@@ -1,0 +1,326 @@
+//! From physics to equations of motion, and back to units.
+//!
+//! A [`Model`] in hand is valid and never changes. Inside it lengths are measured in plate
+//! thicknesses h and time in radians of the drive (tau = Omega t); [`Scales`] is the only type that
+//! converts. The engine receives a program of sums and products and knows nothing of plates.
+
+mod energy;
+mod equations;
+mod scales;
+mod state;
+
+use std::sync::Arc;
+
+use saltus_hybrid::{BuildError, Evaluator, Node, Options, System};
+
+use crate::physics::{Base, ContactLaw, Elasticity, Jumper, PhysicsError, Plate, QuarticTerm};
+pub use energy::{EnergyBalance, EnergyLedger};
+pub use equations::Contact;
+pub use scales::Scales;
+pub use state::{Observation, Section};
+
+/// What to do with the in-plane degrees of freedom.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Inertia {
+    /// All degrees of freedom, as DP integrates them: in-plane motion at hundreds of hertz included.
+    #[default]
+    Full,
+    /// In-plane amplitudes follow statically, p = -K^-1 B r r. For the paper's plate orbits differ
+    /// from the full ones by about 1e-4 of their size, and a step may be a hundred times longer.
+    Condensed,
+}
+
+impl Inertia {
+    /// The word used in study files and legends.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Full => "full",
+            Self::Condensed => "condensed",
+        }
+    }
+}
+
+/// Standard gravity as DP uses it (m/s^2).
+pub const GRAVITY: f64 = 9.81;
+
+/// A complete physical question in SI units: what stands where on what, and how the base moves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setup {
+    /// The plate.
+    pub plate: Plate,
+    /// The people; none is the empty plate.
+    pub jumpers: Vec<Jumper>,
+    /// When feet leave the floor and when they are back.
+    pub contact: ContactLaw,
+    /// The base motion.
+    pub base: Base,
+    /// Acceleration of gravity g (m/s^2).
+    pub gravity: f64,
+    /// Full or condensed.
+    pub inertia: Inertia,
+}
+
+/// Why there is no model.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ModelError {
+    /// The physics makes no sense.
+    #[error(transparent)]
+    Physics(#[from] PhysicsError),
+    /// A contact law that needs damping.
+    #[error(
+        "jumper.{index}.damping_ratio = 0: contact.law = \"{law}\" needs a damped leg; \
+         without damping it is the same as \"reaction-force\""
+    )]
+    Undamped {
+        /// Which jumper.
+        index: usize,
+        /// The law.
+        law: &'static str,
+    },
+    /// Numbers that combine to something no machine can hold.
+    #[error("the equations of motion are out of range ({0}); are the numbers in SI units?")]
+    Range(#[from] BuildError),
+    /// A fixed step the integration cannot survive.
+    #[error(
+        "solver.steps_per_period = {steps}: RK4 is unstable above {limit} s per step for a frequency of \
+         {hz} Hz; at least {needed} steps are needed (or plate.inertia = \"condensed\")"
+    )]
+    UnstableStep {
+        /// Steps asked for.
+        steps: u32,
+        /// Largest stable step (s).
+        limit: f64,
+        /// Highest linear frequency (Hz).
+        hz: f64,
+        /// Steps needed.
+        needed: u32,
+    },
+}
+
+/// A plate with its coefficients, computed once and shared by all models on it.
+#[derive(Clone, Debug)]
+pub struct PreparedPlate {
+    /// The plate.
+    pub plate: Plate,
+    /// Its coefficients.
+    pub elasticity: Elasticity,
+    /// Quartic energy with the in-plane terms condensed.
+    pub condensed: Vec<QuarticTerm>,
+}
+
+impl PreparedPlate {
+    /// Computes all coefficients.
+    ///
+    /// # Errors
+    /// As [`Plate::elasticity`] and [`Elasticity::condensed_quartic`].
+    pub fn new(plate: &Plate) -> Result<Arc<Self>, PhysicsError> {
+        let elasticity = plate.elasticity()?;
+        let condensed = elasticity.condensed_quartic()?;
+        Ok(Arc::new(Self { plate: plate.clone(), elasticity, condensed }))
+    }
+}
+
+/// Equations of motion of one setup, ready to integrate.
+#[derive(Clone, Debug)]
+pub struct Model {
+    pub(crate) setup: Setup,
+    pub(crate) plate: Arc<PreparedPlate>,
+    pub(crate) scales: Scales,
+    pub(crate) layout: Layout,
+    pub(crate) system: System,
+    /// Spring-damper force on each jumper, in force also in flight (divide by m_h h Omega^2).
+    pub(crate) leg_force: Vec<Node>,
+    pub(crate) ledger: Option<EnergyLedger>,
+}
+
+/// Where the coordinates are in the state vector.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Layout {
+    /// In-plane amplitudes; 0 in the condensed model.
+    pub(crate) in_plane: usize,
+    pub(crate) transverse: usize,
+    pub(crate) jumpers: usize,
+    /// Whether each leg has a state of its own.
+    pub(crate) legs: bool,
+}
+
+impl Layout {
+    pub(crate) fn p(self, i: usize) -> usize {
+        i
+    }
+    pub(crate) fn dp(self, i: usize) -> usize {
+        self.in_plane + i
+    }
+    pub(crate) fn r(self, j: usize) -> usize {
+        2 * self.in_plane + j
+    }
+    pub(crate) fn dr(self, j: usize) -> usize {
+        2 * self.in_plane + self.transverse + j
+    }
+    pub(crate) fn z(self, i: usize) -> usize {
+        2 * (self.in_plane + self.transverse) + i
+    }
+    pub(crate) fn dz(self, i: usize) -> usize {
+        self.z(0) + self.jumpers + i
+    }
+    pub(crate) fn leg(self, i: usize) -> usize {
+        self.z(0) + 2 * self.jumpers + i
+    }
+    pub(crate) fn len(self) -> usize {
+        self.leg(0) + if self.legs { self.jumpers } else { 0 }
+    }
+}
+
+impl Setup {
+    /// The paper's case at one damping ratio zeta_h and one Omega/omega_h, with the occupied body
+    /// frequency as reference.
+    pub fn dias_del_prado(damping_ratio: f64, frequency_ratio: f64) -> Self {
+        use crate::physics::{BaseFrequency, FrequencyReference};
+        let plate = Plate::dias_del_prado();
+        let jumper = Jumper::dias_del_prado(plate.length, plate.width);
+        Self {
+            jumpers: vec![Jumper { damping_ratio, ..jumper }],
+            contact: ContactLaw::ReactionForce,
+            base: Base {
+                amplitude: 0.13 * plate.thickness,
+                frequency: BaseFrequency::Ratio {
+                    ratio: frequency_ratio,
+                    reference: FrequencyReference::Occupied,
+                },
+            },
+            gravity: GRAVITY,
+            inertia: Inertia::Condensed,
+            plate,
+        }
+    }
+
+    /// Its equations of motion.
+    ///
+    /// # Errors
+    /// [`ModelError`] names the quantity that is wrong.
+    pub fn model(&self) -> Result<Model, ModelError> {
+        self.model_on(&PreparedPlate::new(&self.plate)?)
+    }
+
+    /// As [`Setup::model`], on a plate prepared before (which must be this setup's plate).
+    ///
+    /// # Errors
+    /// [`ModelError`] names the quantity that is wrong.
+    pub fn model_on(&self, plate: &Arc<PreparedPlate>) -> Result<Model, ModelError> {
+        Model::new(self, plate, false)
+    }
+
+    /// As [`Setup::model`], with the energy integrals beside the state (see [`EnergyBalance`]).
+    ///
+    /// # Errors
+    /// [`ModelError`] names the quantity that is wrong.
+    pub fn model_with_energy(&self) -> Result<Model, ModelError> {
+        Model::new(self, &PreparedPlate::new(&self.plate)?, true)
+    }
+
+    fn check(&self) -> Result<(), ModelError> {
+        self.base.check()?;
+        PhysicsError::require(
+            self.gravity > 0.0,
+            "gravity.acceleration",
+            self.gravity,
+            "a positive number of m/s^2 is needed",
+        )?;
+        for (index, jumper) in self.jumpers.iter().enumerate() {
+            jumper.check(index)?;
+            jumper.check_position(index, &self.plate)?;
+            if jumper.damping_ratio == 0.0 && self.contact != ContactLaw::ReactionForce {
+                return Err(ModelError::Undamped { index, law: self.contact.name() });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Model {
+    fn new(setup: &Setup, plate: &Arc<PreparedPlate>, with_energy: bool) -> Result<Self, ModelError> {
+        setup.check()?;
+        let omega = setup.base.omega(&setup.plate, &setup.jumpers)?;
+        let scales = Scales::new(setup, omega);
+        let layout = Layout {
+            in_plane: match setup.inertia {
+                Inertia::Full => plate.elasticity.in_plane_mass.len(),
+                Inertia::Condensed => 0,
+            },
+            transverse: plate.elasticity.bending.len(),
+            jumpers: setup.jumpers.len(),
+            legs: setup.contact == ContactLaw::RelaxingLeg,
+        };
+        let equations = equations::build(setup, plate, &scales, layout, with_energy)?;
+        Ok(Self {
+            setup: setup.clone(),
+            plate: Arc::clone(plate),
+            scales,
+            layout,
+            system: equations.system,
+            leg_force: equations.leg_force,
+            ledger: equations.ledger,
+        })
+    }
+
+    /// The setup it was made from.
+    pub fn setup(&self) -> &Setup {
+        &self.setup
+    }
+
+    /// Units of its state.
+    pub fn scales(&self) -> &Scales {
+        &self.scales
+    }
+
+    /// The system as the engine sees it.
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// Shares the program of a model that has the same one, which makes comparing them cheap.
+    pub(crate) fn share_structure(&mut self, other: &Self) {
+        self.system = self.system.clone().sharing(&other.system);
+    }
+
+    /// An evaluator of forces and accelerations at states of this model.
+    pub fn evaluator(&self) -> Evaluator {
+        Evaluator::new(&self.system)
+    }
+
+    /// Highest linear frequency of the model (rad/s), for the stability limit of explicit steps.
+    ///
+    /// # Errors
+    /// [`PhysicsError::Algebra`] if the eigenvalues cannot be computed.
+    pub fn highest_omega(&self) -> Result<f64, PhysicsError> {
+        let plate = &self.setup.plate;
+        let occupied = plate.occupied(&self.setup.jumpers)?.hz;
+        let in_plane = match self.setup.inertia {
+            Inertia::Full => plate.in_plane_frequencies_hz()?,
+            Inertia::Condensed => Vec::new(),
+        };
+        let highest = occupied.iter().chain(&in_plane).fold(0.0, |m: f64, f| m.max(*f));
+        Ok(std::f64::consts::TAU * highest)
+    }
+
+    /// Refuses a fixed step above RK4's stability limit, dt omega_max < 2.785 (Hairer & Wanner,
+    /// Solving ODEs II, section IV.2: the interval on the negative real axis, within 2.83 on the imaginary one).
+    ///
+    /// # Errors
+    /// [`ModelError::UnstableStep`] says how many steps are needed.
+    pub fn check_step(&self, options: &Options) -> Result<(), ModelError> {
+        let saltus_hybrid::Method::Rk4 { steps_per_period: steps } = options.method else {
+            return Ok(());
+        };
+        let highest = self.highest_omega()?;
+        let limit = 2.785 / highest;
+        let period = std::f64::consts::TAU / self.scales.omega;
+        if period / f64::from(steps) <= limit {
+            return Ok(());
+        }
+        let needed = (period / limit).ceil().min(f64::from(u32::MAX)) as u32;
+        let hz = highest / std::f64::consts::TAU;
+        Err(ModelError::UnstableStep { steps, limit, hz, needed })
+    }
+}

@@ -1,0 +1,52 @@
+//! What all studies share: how to run, how to stop, how to report progress, what can go wrong.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use saltus_hybrid::{IntegrateError, Options};
+
+use crate::model::ModelError;
+
+/// How a study runs, beside the question it asks.
+#[derive(Clone, Debug, Default)]
+pub struct Control {
+    /// Stepper and its limits.
+    pub options: Options,
+    /// Threads; 0 for as many as the machine has. Results do not depend on it.
+    pub threads: usize,
+    /// Raise it to stop the study at its next step.
+    pub stop: Arc<AtomicBool>,
+    /// Periods done so far by all trajectories, for a progress display.
+    pub done: Arc<AtomicU64>,
+}
+
+impl Control {
+    pub(crate) fn count_period(&self) {
+        self.done.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
+/// Why a study has no answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// No model.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// No integration.
+    #[error(transparent)]
+    Integrate(#[from] IntegrateError),
+}
+
+impl From<crate::physics::PhysicsError> for StudyError {
+    fn from(error: crate::physics::PhysicsError) -> Self {
+        Self::Model(error.into())
+    }
+}
+
+impl StudyError {
+    /// Whether the study was stopped from outside.
+    pub fn is_interrupt(&self) -> bool {
+        matches!(self, Self::Integrate(IntegrateError::Interrupted))
+    }
+}

@@ -1,0 +1,236 @@
+//! The brute-force bifurcation diagram: for each value of a parameter, let transients die, then keep
+//! the stroboscopic samples. Del Prado's method, as DP section 3 uses it.
+
+use saltus_hybrid::{End, Leg, Point, Sample, Status, Task, integrate_all};
+
+use super::{Control, StudyError};
+use crate::model::{Contact, Model, ModelError};
+
+/// One way through the values.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pass {
+    /// Upwards, the state carried on from value to value.
+    Up,
+    /// Downwards, the state carried on.
+    Down,
+    /// Each value anew from this start, plate at rest.
+    Start {
+        /// z/eta of every body.
+        z: f64,
+        /// z'/(eta omega_h) of every body.
+        v: f64,
+    },
+}
+
+/// A sweep through `values` (ascending).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    /// Values of the parameter, ascending.
+    pub values: Vec<f64>,
+    /// The passes to make.
+    pub passes: Vec<Pass>,
+    /// First start of the up and down passes: z/eta and z'/(eta omega_h).
+    pub start: (f64, f64),
+    /// Periods before anything is kept.
+    pub transient: u64,
+    /// Periods kept.
+    pub record: u64,
+}
+
+impl Sweep {
+    /// Periods to run in all, for a progress display.
+    pub fn periods(&self) -> u64 {
+        (self.values.len() * self.passes.len()) as u64 * (self.transient + self.record)
+    }
+
+    /// `count` values from `from` to `to`, both included.
+    pub fn linspace(from: f64, to: f64, count: usize) -> Vec<f64> {
+        let last = count.saturating_sub(1).max(1) as f64;
+        (0..count).map(|i| from + (to - from) * i as f64 / last).collect()
+    }
+}
+
+/// What was found at one value in one pass.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SweepRow {
+    /// Index of the pass in [`Sweep::passes`].
+    pub pass: usize,
+    /// Value of the parameter.
+    pub value: f64,
+    /// z/eta at the kept samples, body by body: `z[body][sample]`.
+    pub z: Vec<Vec<f64>>,
+    /// z'/(eta omega_h) likewise.
+    pub v: Vec<Vec<f64>>,
+    /// Part of the kept time each body spent on the floor.
+    pub contact_ratio: Vec<f64>,
+    /// How the run ended, or the model's error.
+    pub status: Result<Status, ModelError>,
+}
+
+/// Runs the sweep; one row per pass and value, pass by pass, values ascending within each.
+///
+/// A value without a model, or a trajectory that ends early, is a row that says so. A pass that
+/// carries its state goes on from the pass's first start after such a row.
+///
+/// # Errors
+/// [`StudyError::Integrate`] for options out of range or when stopped.
+pub fn sweep<F>(sweep: &Sweep, model_at: F, control: &Control) -> Result<Vec<SweepRow>, StudyError>
+where
+    F: Fn(f64) -> Result<Model, ModelError> + Sync,
+{
+    Ok(sweep_many(&[(sweep.clone(), &model_at)], control)?.remove(0))
+}
+
+/// Several sweeps at once, so that their chains share the lanes. All models have one structure.
+pub(crate) fn sweep_many<F>(
+    sweeps: &[(Sweep, F)],
+    control: &Control,
+) -> Result<Vec<Vec<SweepRow>>, StudyError>
+where
+    F: Fn(f64) -> Result<Model, ModelError> + Sync,
+{
+    let mut tasks = Vec::new();
+    for (sweep_index, (sweep, model_at)) in sweeps.iter().enumerate() {
+        for (pass, way) in sweep.passes.iter().enumerate() {
+            let mut values: Vec<(usize, f64)> = sweep.values.iter().copied().enumerate().collect();
+            let task = |values, start| Chain {
+                sweep_index,
+                pass,
+                values,
+                next: 0,
+                start,
+                transient: sweep.transient,
+                record: sweep.record,
+                model_at,
+                control,
+                current: None,
+                rows: Vec::new(),
+            };
+            match *way {
+                Pass::Up => tasks.push(task(values, sweep.start)),
+                Pass::Down => {
+                    values.reverse();
+                    tasks.push(task(values, sweep.start));
+                }
+                Pass::Start { z, v } => {
+                    tasks.extend(values.into_iter().map(|value| task(vec![value], (z, v))));
+                }
+            }
+        }
+    }
+    // The longest first: chains are sequential and would otherwise end last.
+    tasks.sort_by_key(|task| std::cmp::Reverse(task.values.len()));
+    let ended = integrate_all(&control.options, tasks, control.threads, &control.stop)?;
+    let mut rows: Vec<Vec<(usize, SweepRow)>> = vec![Vec::new(); sweeps.len()];
+    for chain in ended {
+        rows[chain.sweep_index].extend(chain.rows);
+    }
+    for rows in &mut rows {
+        rows.sort_by_key(|(index, row)| (row.pass, *index));
+    }
+    Ok(rows.into_iter().map(|rows| rows.into_iter().map(|(_, row)| row).collect()).collect())
+}
+
+/// One pass with carried state, or one restart.
+struct Chain<'a, F> {
+    sweep_index: usize,
+    pass: usize,
+    values: Vec<(usize, f64)>,
+    next: usize,
+    start: (f64, f64),
+    transient: u64,
+    record: u64,
+    model_at: &'a F,
+    control: &'a Control,
+    current: Option<Current>,
+    rows: Vec<(usize, SweepRow)>,
+}
+
+/// The value being run.
+struct Current {
+    index: usize,
+    model: Model,
+    row: SweepRow,
+    stance: Vec<f64>,
+}
+
+impl<F> Chain<'_, F>
+where
+    F: Fn(f64) -> Result<Model, ModelError> + Sync,
+{
+    /// The next value that has a model, from the carried state if there is one.
+    fn advance(&mut self, carried: Option<(Model, Point)>) -> Option<Leg> {
+        while let Some(&(index, value)) = self.values.get(self.next) {
+            self.next += 1;
+            let mut row = SweepRow {
+                pass: self.pass,
+                value,
+                z: Vec::new(),
+                v: Vec::new(),
+                contact_ratio: Vec::new(),
+                status: Ok(Status::Completed),
+            };
+            match (self.model_at)(value) {
+                Err(error) => {
+                    row.status = Err(error);
+                    self.rows.push((index, row));
+                }
+                Ok(mut model) => {
+                    let start = match &carried {
+                        Some((previous, point)) => {
+                            model.share_structure(previous);
+                            model.carry(previous, point)
+                        }
+                        None => model.start(self.start.0, self.start.1),
+                    };
+                    let bodies = model.setup().jumpers.len();
+                    let room = || Vec::with_capacity(self.record as usize);
+                    row.z = (0..bodies).map(|_| room()).collect();
+                    row.v = (0..bodies).map(|_| room()).collect();
+                    let leg = Leg {
+                        system: model.system().clone(),
+                        start,
+                        periods: self.transient + self.record,
+                    };
+                    let stance = vec![0.0; bodies];
+                    self.current = Some(Current { index, model, row, stance });
+                    return Some(leg);
+                }
+            }
+        }
+        None
+    }
+}
+
+impl<F> Task for Chain<'_, F>
+where
+    F: Fn(f64) -> Result<Model, ModelError> + Sync,
+{
+    fn begin(&mut self) -> Option<Leg> {
+        self.advance(None)
+    }
+
+    fn sample(&mut self, sample: &Sample<'_>) -> bool {
+        self.control.count_period();
+        if let Some(current) = self.current.as_mut().filter(|_| sample.period > self.transient) {
+            for body in 0..current.stance.len() {
+                current.row.z[body].push(current.model.z(body, sample.x));
+                current.row.v[body].push(current.model.v(body, sample.x));
+                let on_floor = |&(mode, _): &(usize, &f64)| Contact::of(mode) == Contact::Stance;
+                current.stance[body] +=
+                    sample.dwell[body].iter().enumerate().filter(on_floor).map(|(_, t)| t).sum::<f64>();
+            }
+        }
+        true
+    }
+
+    fn end(&mut self, end: End) -> Option<Leg> {
+        let Current { index, model, mut row, stance } = self.current.take()?;
+        let kept = end.periods.saturating_sub(self.transient) as f64 * model.system().period();
+        row.contact_ratio = stance.iter().map(|time| time / kept).collect();
+        row.status = Ok(end.status);
+        self.rows.push((index, row));
+        let carried = (end.status == Status::Completed).then_some((model, end.point));
+        self.advance(carried)
+    }
+}

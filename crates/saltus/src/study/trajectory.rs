@@ -1,0 +1,178 @@
+//! One trajectory in full: section, switches, time history, energies.
+
+use saltus_hybrid::{
+    End, Evaluator, Leg, Point, Sample, Status, Step, Switch, SwitchKind, Task, integrate,
+};
+
+use super::{Control, StudyError};
+use crate::model::{Contact, EnergyBalance, Model, Observation, Section};
+
+/// A change of contact, or a tangency.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrajectorySwitch {
+    /// Time since the start (s).
+    pub time: f64,
+    /// Which jumper.
+    pub jumper: usize,
+    /// The contact entered; `None` for a tangency, where the contact force touches its threshold
+    /// and does not cross it.
+    pub into: Option<Contact>,
+}
+
+/// Observations at equal times.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct History {
+    /// Times since the start (s).
+    pub time: Vec<f64>,
+    /// What was there at each.
+    pub states: Vec<Observation>,
+}
+
+/// Everything about one trajectory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trajectory {
+    /// The section at the end of each period (cos(Omega t) = 1), the start not included.
+    pub section: Vec<Section>,
+    /// Switches in time order.
+    pub switches: Vec<TrajectorySwitch>,
+    /// Time history of the last periods asked for.
+    pub history: History,
+    /// Part of the time each body spent on the floor, period by period.
+    pub contact_ratio: Vec<Vec<f64>>,
+    /// Energy balance of each period, if the model keeps it.
+    pub energy: Vec<EnergyBalance>,
+    /// How it ended.
+    pub end: End,
+}
+
+/// Runs `periods` periods from `start`; the time history covers the last `history` of them with
+/// `points` points each.
+///
+/// # Errors
+/// [`StudyError::Integrate`] for options out of range or when stopped.
+pub fn simulate(
+    model: &Model,
+    start: &Point,
+    periods: u64,
+    history: u64,
+    points: u32,
+    control: &Control,
+) -> Result<Trajectory, StudyError> {
+    model.check_step(&control.options)?;
+    let task = Recorder {
+        model,
+        control,
+        evaluator: model.evaluator(),
+        leg: Some(Leg { system: model.system().clone(), start: start.clone(), periods }),
+        from: periods.saturating_sub(history),
+        points,
+        next: 0,
+        before: start.clone(),
+        out: Trajectory {
+            section: Vec::new(),
+            switches: Vec::new(),
+            history: History::default(),
+            contact_ratio: Vec::new(),
+            energy: Vec::new(),
+            end: End {
+                status: Status::Completed,
+                point: start.clone(),
+                periods: 0,
+                steps: 0,
+                switches: 0,
+                tangencies: 0,
+            },
+        },
+    };
+    let mut out = None;
+    integrate(&control.options, [task], &control.stop, |task| out = Some(task.out))?;
+    out.ok_or(StudyError::Integrate(saltus_hybrid::IntegrateError::Interrupted))
+}
+
+struct Recorder<'a> {
+    model: &'a Model,
+    control: &'a Control,
+    evaluator: Evaluator,
+    leg: Option<Leg>,
+    /// First period of the history.
+    from: u64,
+    /// Points per period.
+    points: u32,
+    /// Next point within the period.
+    next: u32,
+    before: Point,
+    out: Trajectory,
+}
+
+impl Recorder<'_> {
+    fn seconds(&self, period: u64, time: f64) -> f64 {
+        (period as f64 * self.model.system().period() + time) / self.model.scales().omega
+    }
+}
+
+impl Task for Recorder<'_> {
+    fn begin(&mut self) -> Option<Leg> {
+        self.leg.take()
+    }
+
+    fn sample(&mut self, sample: &Sample<'_>) -> bool {
+        self.control.count_period();
+        let period = self.model.system().period();
+        self.out.section.push(self.model.section(sample.modes, sample.x));
+        let stance = |dwell: &Vec<f64>| {
+            let on_floor = |&(mode, _): &(usize, &f64)| Contact::of(mode) == Contact::Stance;
+            dwell.iter().enumerate().filter(on_floor).map(|(_, t)| t).sum::<f64>() / period
+        };
+        self.out.contact_ratio.push(sample.dwell.iter().map(stance).collect());
+        let point = Point { modes: sample.modes.to_vec(), x: sample.x.to_vec() };
+        self.out.energy.extend(self.model.energy_balance(&self.before, &point));
+        self.before = point;
+        self.next = 0;
+        true
+    }
+
+    fn switch(&mut self, switch: &Switch<'_>) {
+        let into = match switch.kind {
+            SwitchKind::Tangency => None,
+            SwitchKind::Mode { from, to } => {
+                let (from, to) = (Contact::of(from), Contact::of(to));
+                if from == to {
+                    return; // the gap law's two kinds of flight
+                }
+                Some(to)
+            }
+        };
+        let time = self.seconds(switch.period, switch.time);
+        self.out.switches.push(TrajectorySwitch { time, jumper: switch.unit, into });
+    }
+
+    fn wants_steps(&self) -> bool {
+        true
+    }
+
+    fn step(&mut self, step: &Step<'_>) {
+        if step.period < self.from {
+            return;
+        }
+        let spacing = self.model.system().period() / f64::from(self.points);
+        let mut x = vec![0.0; self.model.system().state_len()];
+        // Half open like the steps themselves: each point belongs to one step.
+        while self.next < self.points {
+            let since = f64::from(self.next) * spacing - step.time;
+            if since >= step.length {
+                break;
+            }
+            step.state(since.max(0.0), &mut x);
+            let seen = self.model.observe(&mut self.evaluator, step.modes, &x);
+            let time = self.seconds(step.period, f64::from(self.next) * spacing);
+            self.out.history.time.push(time);
+            self.out.history.states.push(seen);
+            self.next += 1;
+        }
+    }
+
+    fn end(&mut self, end: End) -> Option<Leg> {
+        self.out.end = end;
+        None
+    }
+}
