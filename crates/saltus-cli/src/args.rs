@@ -1,0 +1,188 @@
+//! The grammar of the command line.
+
+use crate::exit::{self, Failure};
+use crate::output;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::io::{self, IsTerminal};
+use std::path::PathBuf;
+
+/// People who jump on a vibrating plate.
+#[derive(Debug, Parser)]
+#[command(name = "saltus", version, after_help = exit::HELP, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Compute every figure and statement of Dias & Del Prado into a folder with an index page
+    Reproduce(ReproduceArgs),
+    /// Print a commented study file to start from
+    Init(InitArgs),
+    /// Read a study file, say what it describes, or what is wrong with it
+    Check(CheckArgs),
+    /// Print the JSON Schema of the study file
+    Schema(SchemaArgs),
+    /// Natural frequencies: empty plate, in its plane, with the people on it
+    Frequencies(FrequenciesArgs),
+    /// Integrate the motion and look at it once per forcing period
+    Simulate(SimulateArgs),
+    /// Long-term motion while one parameter changes
+    Sweep(SweepArgs),
+}
+
+/// The study a command works on.
+#[derive(Debug, Args)]
+pub(crate) struct StudyArgs {
+    /// Study file (TOML); `-` is standard input
+    #[arg(value_name = "FILE")]
+    pub(crate) file: PathBuf,
+    /// Change a key of the study, such as jumper.damping_ratio=0.28 or jumper.0.mass=80; may be repeated
+    #[arg(
+        long = "set",
+        value_name = "TABLE.KEY=VALUE",
+        allow_hyphen_values = true
+    )]
+    pub(crate) sets: Vec<String>,
+}
+
+/// Where results go.
+#[derive(Debug, Args)]
+pub(crate) struct OutputArgs {
+    /// Print one JSON document to standard output and nothing else
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Folder for data, figure and resolved study file; made if it is not there
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// No progress and no summary, only what was asked for and errors
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+}
+
+/// How the work is spread.
+#[derive(Debug, Args)]
+pub(crate) struct ThreadArgs {
+    /// Threads to use [default: one per core]; results do not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ReproduceArgs {
+    /// Folder for the index page, figures and data; made if it is not there
+    #[arg(long, value_name = "DIR", default_value = "results")]
+    pub(crate) out: PathBuf,
+    /// Fewer parameter values and periods: a look in seconds
+    #[arg(long)]
+    pub(crate) quick: bool,
+    /// Print the table of facts as one JSON document to standard output and nothing else
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// No progress and no summary, only what was asked for and errors
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) threads: ThreadArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct InitArgs {
+    /// Which study
+    #[arg(value_enum)]
+    pub(crate) preset: Preset,
+    /// File to write instead of standard output; replaced if it is there
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+}
+
+/// Studies that come with the program.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Preset {
+    /// The case of Dias & Del Prado, section 3
+    Paper,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CheckArgs {
+    #[command(flatten)]
+    pub(crate) study: StudyArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SchemaArgs {
+    /// File to write instead of standard output; replaced if it is there
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// Accepted as everywhere; a schema is a JSON document anyway
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct FrequenciesArgs {
+    #[command(flatten)]
+    pub(crate) study: StudyArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SimulateArgs {
+    #[command(flatten)]
+    pub(crate) study: StudyArgs,
+    /// Forcing periods to integrate; short for --set simulate.periods=N
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    pub(crate) periods: Option<u32>,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+    #[command(flatten)]
+    pub(crate) threads: ThreadArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct SweepArgs {
+    #[command(flatten)]
+    pub(crate) study: StudyArgs,
+    #[command(flatten)]
+    pub(crate) output: OutputArgs,
+    #[command(flatten)]
+    pub(crate) threads: ThreadArgs,
+}
+
+/// The command asked for; `None` if help or the version was asked for and printed.
+pub(crate) fn parse() -> Result<Option<Command>, Failure> {
+    match Cli::try_parse() {
+        Ok(cli) => Ok(Some(cli.command)),
+        Err(error) if error.use_stderr() => {
+            // standard error may be closed; the exit code says it all the same
+            let _ = error.print();
+            Err(Failure::Usage)
+        }
+        Err(help) => {
+            let text = help.render();
+            let styled = io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+            let text = if styled {
+                text.ansi().to_string()
+            } else {
+                text.to_string()
+            };
+            output::print(&text).map(|()| None)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Cli;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_grammar_is_sound() {
+        Cli::command().debug_assert();
+    }
+}

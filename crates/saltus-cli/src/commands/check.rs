@@ -1,0 +1,123 @@
+//! `saltus check`: what a study file describes.
+
+use crate::args::CheckArgs;
+use crate::exit::Failure;
+use crate::output;
+use saltus::physics::BaseFrequency;
+use saltus_config::Study;
+use serde::Serialize;
+use std::fmt::Write;
+
+/// The JSON document.
+#[derive(Serialize)]
+struct Report<'a> {
+    valid: bool,
+    file: String,
+    warnings: &'a [String],
+    study: &'a Study,
+}
+
+pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
+    let study = super::load(&args.study, &[])?;
+    let warnings = warnings(&study);
+    if let Some(out) = &args.output.out {
+        super::folder_with_study(out, &study)?;
+    }
+    let file = args.study.file.display().to_string();
+    if args.output.json {
+        return output::print_json(&Report {
+            valid: true,
+            file,
+            warnings: &warnings,
+            study: &study,
+        });
+    }
+    if args.output.quiet {
+        return Ok(());
+    }
+    output::print(&summary(&file, &study, &warnings)?)
+}
+
+/// Legal, but probably not meant.
+fn warnings(study: &Study) -> Vec<String> {
+    let plate = study.plate();
+    let unmoved = |&(_, jumper): &(usize, &saltus::physics::Jumper)| plate.on_nodal_lines(jumper);
+    let jumpers = study.jumpers();
+    let alone = jumpers.iter().enumerate().filter(unmoved).map(|(i, _)| {
+        format!("jumper.{i} stands on a nodal line of every mode: plate and jumper cannot feel each other")
+    });
+    let sweep = study.sweep.iter().filter_map(|sweep| {
+        let refused = study.set(&sweep.parameter, sweep.from).err()?;
+        Some(format!("[sweep] cannot run: {refused}"))
+    });
+    alone.chain(sweep).collect()
+}
+
+fn summary(file: &str, study: &Study, warnings: &[String]) -> Result<String, Failure> {
+    let plate = study.plate();
+    let mut text = format!("{file}: valid\n");
+    let mut line = |name: &str, what: String| {
+        // writing to a string cannot fail
+        let _ = writeln!(text, "  {name:<9}{what}");
+    };
+    line(
+        "plate",
+        format!(
+            "{} x {} x {} m, {} u + {} v + {} w terms, {} inertia",
+            plate.length,
+            plate.width,
+            plate.thickness,
+            plate.modes.u.len(),
+            plate.modes.v.len(),
+            plate.modes.w.len(),
+            word(&study.plate.inertia),
+        ),
+    );
+    for jumper in study.jumpers() {
+        line(
+            "jumper",
+            format!(
+                "{} kg at ({}, {}) m, {} N/m, damping ratio {}",
+                jumper.mass, jumper.x, jumper.y, jumper.stiffness, jumper.damping_ratio
+            ),
+        );
+    }
+    line("contact", study.contact_law().name().to_owned());
+    line("base", base(study)?);
+    line("solver", word(&study.solver.method));
+    if let Some(sweep) = &study.sweep {
+        let direction = word(&sweep.direction);
+        let what = format!(
+            "{} from {} to {}, {} values, {direction}",
+            sweep.parameter, sweep.from, sweep.to, sweep.count
+        );
+        line("sweep", what);
+    }
+    for warning in warnings {
+        line("warning", warning.clone());
+    }
+    Ok(text)
+}
+
+fn base(study: &Study) -> Result<String, Failure> {
+    let base = study.base();
+    let omega = base
+        .omega(&study.plate(), &study.jumpers())
+        .map_err(Failure::computation)?;
+    let hertz = omega / std::f64::consts::TAU;
+    let reading = match base.frequency {
+        BaseFrequency::Hertz(_) => String::new(),
+        BaseFrequency::Ratio { ratio, reference } => {
+            format!(" ({ratio} x the {} frequency)", reference.name())
+        }
+    };
+    Ok(format!("{} m at {hertz:.4} Hz{reading}", base.amplitude))
+}
+
+/// A choice as the study file spells it.
+fn word(choice: &impl Serialize) -> String {
+    match serde_json::to_value(choice) {
+        Ok(serde_json::Value::String(word)) => word,
+        _ => String::new(),
+    }
+}

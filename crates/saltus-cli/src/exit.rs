@@ -1,0 +1,171 @@
+//! How the program ends: what can go wrong, the exit code of each, and how it is told.
+//!
+//! | code | meaning |
+//! |---|---|
+//! | 0 | done |
+//! | 1 | the computation failed |
+//! | 2 | wrong usage, or a study file that says something impossible |
+//! | 3 | a file, folder or standard output cannot be read or written |
+//! | 130 | interrupted (Ctrl-C) |
+//! | 141 | the reader of standard output closed it (as `head` does); nothing is said |
+
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
+use saltus_config::{StudyError, StudyErrorKind};
+use std::fmt;
+use std::io::{self, IsTerminal, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Shown below the help text.
+pub(crate) const HELP: &str = "\
+Start with:
+  saltus reproduce                      every figure of the paper into ./results
+  saltus init paper --out paper.toml    a study file of your own
+
+Exit codes:
+  0    done
+  1    the computation failed; the message says where and what to try
+  2    wrong usage, or something wrong in the study file or an override
+  3    a file, folder or standard output cannot be read or written
+  130  interrupted (Ctrl-C); no half-written file is left
+  141  standard output was closed by its reader (as `head` does); nothing is said";
+
+/// Why a command did not do what was asked.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Failure {
+    /// Told by the command line parser.
+    #[error("wrong usage")]
+    Usage,
+    /// Something wrong with the study.
+    #[error("{0}")]
+    Study(#[from] StudyError),
+    /// The study is sound, but the computation did not get through.
+    #[error("{message}")]
+    Computation {
+        /// What failed.
+        message: String,
+        /// What to try.
+        help: Option<String>,
+    },
+    /// A path or stream refused.
+    #[error("cannot write {}: {reason}", path.display())]
+    Write {
+        /// Which.
+        path: PathBuf,
+        /// What the system said.
+        reason: String,
+    },
+    /// Whoever read standard output has stopped to.
+    #[error("standard output was closed")]
+    ClosedPipe,
+    /// Ctrl-C.
+    #[error("interrupted; nothing was written")]
+    #[cfg_attr(not(test), expect(dead_code, reason = "for the commands that compute"))]
+    Interrupted,
+}
+
+impl Failure {
+    /// A failed computation.
+    pub(crate) fn computation(message: impl fmt::Display) -> Self {
+        Self::Computation {
+            message: message.to_string(),
+            help: None,
+        }
+    }
+
+    /// A path or stream that refused to be written.
+    pub(crate) fn write(path: impl Into<PathBuf>, error: &io::Error) -> Self {
+        let reason = match error.kind() {
+            // of a file about to be made, so what is missing is the folder
+            io::ErrorKind::NotFound => "there is no such folder".to_owned(),
+            io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+            _ => error.to_string(),
+        };
+        Self::Write {
+            path: path.into(),
+            reason,
+        }
+    }
+
+    fn code(&self) -> u8 {
+        match self {
+            Self::Study(error) if error.kind() == StudyErrorKind::Unreadable => 3,
+            Self::Computation { .. } => 1,
+            Self::Usage | Self::Study(_) => 2,
+            Self::Write { .. } => 3,
+            Self::Interrupted => 130,
+            Self::ClosedPipe => 141,
+        }
+    }
+}
+
+impl Diagnostic for Failure {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        match self {
+            Self::Computation {
+                help: Some(help), ..
+            } => Some(Box::new(help)),
+            _ => None,
+        }
+    }
+}
+
+/// Tells a failure on standard error and gives the exit code.
+pub(crate) fn finish(outcome: Result<(), Failure>) -> ExitCode {
+    let Err(failure) = outcome else {
+        return ExitCode::SUCCESS;
+    };
+    match &failure {
+        Failure::Usage | Failure::ClosedPipe => {}
+        Failure::Study(error) => tell(error),
+        other => tell(other),
+    }
+    ExitCode::from(failure.code())
+}
+
+/// Drawn on a terminal; plain, unwrapped and without colour for a file or a log.
+fn tell(diagnostic: &dyn Diagnostic) {
+    let terminal = io::stderr().is_terminal();
+    let colour = terminal && std::env::var_os("NO_COLOR").is_none();
+    let theme = match (terminal, colour) {
+        (true, true) => GraphicalTheme::unicode(),
+        (true, false) => GraphicalTheme::unicode_nocolor(),
+        (false, _) => GraphicalTheme::none(),
+    };
+    let handler = GraphicalReportHandler::new_themed(theme).with_links(false);
+    let handler = if terminal {
+        handler.with_width(100)
+    } else {
+        handler.with_wrap_lines(false)
+    };
+    let mut text = String::from("Error:\n");
+    if handler.render_report(&mut text, diagnostic).is_err() {
+        text = format!("Error: {diagnostic}\n");
+    }
+    if !text.ends_with('\n') {
+        text.push('\n');
+    }
+    // nobody is left to tell if standard error is closed
+    let _ = io::stderr().write_all(text.as_bytes());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Failure, HELP};
+
+    #[test]
+    fn every_code_is_in_the_help() {
+        for failure in [
+            Failure::Usage,
+            Failure::computation("x"),
+            Failure::write("x", &std::io::Error::other("y")),
+            Failure::Interrupted,
+            Failure::ClosedPipe,
+        ] {
+            assert!(
+                HELP.contains(&format!("\n  {:<5}", failure.code())),
+                "{failure}"
+            );
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! The saltus program: reads a study file, computes, writes results. No formula lives here.
+
+mod args;
+mod commands;
+mod exit;
+mod interrupt;
+mod output;
+mod progress;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let outcome = match args::parse() {
+        Ok(Some(command)) => commands::run(command),
+        Ok(None) => Ok(()),
+        Err(failure) => Err(failure),
+    };
+    exit::finish(outcome)
+}

@@ -1,0 +1,40 @@
+//! The saltus study file: TOML with units, schema, overrides and errors that point at the line.
+//!
+//! A [`Study`] is the file, key by key, in SI units. [`load()`] reads and checks it, with overrides as
+//! on the command line; [`Study::plate`] and its sisters hand it on as [`saltus::physics`] records.
+//! The [`schema()`] made from the records is the one description of the keys: structure, ranges,
+//! suggestions, overrides and axis labels are all read from it.
+//!
+//! ```
+//! let study = saltus_config::parse(
+//!     "paper.toml",
+//!     &saltus_config::paper_template(),
+//!     &["jumper.damping_ratio=0.28".to_owned()],
+//! )?;
+//! assert_eq!(study.jumper[0].damping_ratio, 0.28);
+//! # Ok::<(), saltus_config::StudyError>(())
+//! ```
+
+mod error;
+mod key;
+mod load;
+mod overrides;
+mod parameter;
+mod physics;
+mod schema;
+mod source;
+mod structure;
+mod study;
+mod template;
+mod validate;
+
+pub use error::{StudyError, StudyErrorKind};
+pub use load::{load, parse, read};
+pub use parameter::Parameter;
+pub use schema::{keys, schema};
+pub use study::{
+    BaseTable, Basis, ContactTable, Direction, GravityTable, Inertia, JumperTable, Law, Method,
+    ModeLists, Modes, PlateTable, Reference, SimulateTable, SolverTable, StartTable, Study,
+    SweepTable,
+};
+pub use template::paper_template;

@@ -1,0 +1,161 @@
+//! From a file and overrides to a checked study.
+
+use crate::Study;
+use crate::error::{StudyError, StudyErrorKind};
+use crate::key::Key;
+use crate::overrides::{self, SetBy};
+use crate::schema::Node;
+use crate::source::Source;
+use crate::structure::{self, Fault, Point};
+use crate::validate;
+use serde::Deserialize;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// A study file holds a few hundred lines; more than this is some other file.
+const MAX_BYTES: u64 = 4 << 20;
+
+/// Reads and checks the study file at `path`, with overrides such as `jumper.mass=80`.
+///
+/// # Errors
+/// A [`StudyError`] of kind [`Unreadable`](StudyErrorKind::Unreadable) that names the path, or as [`parse`].
+pub fn load(path: impl AsRef<Path>, sets: &[String]) -> Result<Study, StudyError> {
+    let path = path.as_ref();
+    let name = path.display().to_string();
+    match open(path) {
+        Ok(file) => read(&name, file, sets),
+        Err(e) if e.kind() == io::ErrorKind::NotFound => {
+            Err(unreadable(&name, "there is no such file")
+                .help("`saltus init paper --out FILE` writes one to start from"))
+        }
+        Err(e) => Err(unreadable(&name, &plain(&e))),
+    }
+}
+
+fn open(path: &Path) -> io::Result<File> {
+    let file = File::open(path)?;
+    if file.metadata()?.is_dir() {
+        return Err(io::Error::new(
+            io::ErrorKind::IsADirectory,
+            "it is a directory, not a file",
+        ));
+    }
+    Ok(file)
+}
+
+/// Reads and checks a study from anywhere, such as standard input; `name` stands for it in messages.
+///
+/// # Errors
+/// As [`load`].
+pub fn read(name: &str, from: impl Read, sets: &[String]) -> Result<Study, StudyError> {
+    let mut bytes = Vec::new();
+    // one byte more than is allowed is enough to know that there is too much
+    from.take(MAX_BYTES + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|e| unreadable(name, &plain(&e)))?;
+    if bytes.len() as u64 > MAX_BYTES {
+        let reason = format!(
+            "it is larger than {} MiB, too large for a study file",
+            MAX_BYTES >> 20
+        );
+        return Err(unreadable(name, &reason));
+    }
+    let text = String::from_utf8(bytes).map_err(|e| {
+        unreadable(
+            name,
+            &format!(
+                "it is not UTF-8 text (byte {} is not)",
+                e.utf8_error().valid_up_to()
+            ),
+        )
+    })?;
+    parse(name, &text, sets)
+}
+
+fn unreadable(name: &str, reason: &str) -> StudyError {
+    StudyError::new(
+        StudyErrorKind::Unreadable,
+        format!("cannot read the study file {name}: {reason}"),
+    )
+}
+
+fn plain(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        _ => error.to_string(),
+    }
+}
+
+/// Checks the text of a study file; `name` stands for the file in messages.
+///
+/// # Errors
+/// A [`StudyError`] with key, value, what would be right, and the line or the override it came from.
+pub fn parse(name: &str, text: &str, sets: &[String]) -> Result<Study, StudyError> {
+    let (source, table) = Source::parse(name, text)?;
+    let (table, set_by) = overrides::apply(sets, table)?;
+    let origin = Origin {
+        name,
+        source: &source,
+        set_by: &set_by,
+    };
+    let tree = toml::Value::Table(table);
+
+    let mut faults = Vec::new();
+    structure::check(Node::root(), &tree, &Key::default(), &mut faults);
+    origin.refuse(faults)?;
+
+    // the structure is right, so this fails only if schema and records disagree
+    let study = Study::deserialize(tree)
+        .map_err(|e| StudyError::new(StudyErrorKind::Value, format!("{name}: {}", e.message())))?;
+    origin.refuse(validate::faults(&study))?;
+    Ok(study)
+}
+
+/// Where keys came from.
+struct Origin<'a> {
+    name: &'a str,
+    source: &'a Source,
+    set_by: &'a SetBy,
+}
+
+impl Origin<'_> {
+    fn refuse(&self, faults: Vec<Fault>) -> Result<(), StudyError> {
+        let mut problems: Vec<StudyError> = faults.into_iter().map(|f| self.locate(f)).collect();
+        problems.sort_by_key(StudyError::line);
+        StudyError::first_of(problems).map_or(Ok(()), Err)
+    }
+
+    fn locate(&self, fault: Fault) -> StudyError {
+        let place = match (self.set_by(&fault.key), fault.point) {
+            (Some(_), _) => None,
+            (None, Point::Name) => self.source.key(&fault.key, "not a key of a study"),
+            (None, Point::Value) => self.source.value(&fault.key, "this value"),
+            (None, Point::Table) => self.source.value(&fault.key, "missing in this table"),
+        };
+        let message = match (self.set_by(&fault.key), &place) {
+            (Some(text), _) => format!("--set {text}: {}", fault.message),
+            (None, Some(_)) => fault.message,
+            (None, None) => format!("{}: {}", self.name, fault.message),
+        };
+        let error = StudyError::new(fault.kind, message)
+            .key_is(fault.key.to_string())
+            .at(place);
+        match fault.help {
+            Some(help) => error.help(help),
+            None => error,
+        }
+    }
+
+    /// The override that set this key or something around it.
+    fn set_by(&self, key: &Key) -> Option<&str> {
+        let mut at = Some(key.clone());
+        while let Some(key) = at {
+            if let Some(text) = self.set_by.get(&key.to_string()) {
+                return Some(text);
+            }
+            at = key.parent();
+        }
+        None
+    }
+}

@@ -1,0 +1,254 @@
+//! Does a table have the keys, types and ranges of the schema? All faults are found, not only the first.
+
+use crate::error::StudyErrorKind;
+use crate::key::Key;
+use crate::schema::{Kind, Node, keys};
+use toml::Value;
+
+/// One thing that is wrong, before it is known where the key came from.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Fault {
+    pub(crate) kind: StudyErrorKind,
+    pub(crate) key: Key,
+    pub(crate) point: Point,
+    pub(crate) message: String,
+    pub(crate) help: Option<String>,
+}
+
+/// What to underline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Point {
+    /// The name of the key.
+    Name,
+    /// Its value.
+    Value,
+    /// The table in which it is missing.
+    Table,
+}
+
+impl Fault {
+    /// A value that is wrong, with the value in the message.
+    pub(crate) fn value(key: &Key, given: &Value, what: &str) -> Self {
+        Self {
+            kind: StudyErrorKind::Value,
+            key: key.clone(),
+            point: Point::Value,
+            message: format!("{key} = {}: {what}", shown(given)),
+            help: description(key),
+        }
+    }
+
+    /// A key that is not there.
+    pub(crate) fn missing(key: &Key, help: Option<String>) -> Self {
+        let parent = key.parent().filter(|p| !p.segments().is_empty());
+        let message = match parent {
+            Some(parent) => format!("{key} is missing from {}", header(&parent)),
+            None => format!("the table [{key}] is missing"),
+        };
+        Self {
+            kind: StudyErrorKind::Key,
+            key: key.clone(),
+            point: Point::Table,
+            message,
+            help,
+        }
+    }
+}
+
+/// Appends every fault of `value`, which stands at `key`, against `node`.
+pub(crate) fn check(node: Node, value: &Value, key: &Key, faults: &mut Vec<Fault>) {
+    match (node.kind(), value) {
+        (Kind::Any, _) => check_any(node, value, key, faults),
+        (Kind::Table, Value::Table(table)) => check_table(node, table, key, faults),
+        (Kind::Tables | Kind::List, Value::Array(items)) => {
+            check_list(node, items, value, key, faults);
+        }
+        (Kind::Number, Value::Float(x)) => check_range(node, *x, value, key, faults),
+        #[expect(
+            clippy::cast_precision_loss,
+            reason = "a bound is far below the integers that f64 cannot hold"
+        )]
+        (Kind::Number | Kind::Integer, Value::Integer(i)) => {
+            check_range(node, *i as f64, value, key, faults);
+        }
+        (Kind::Word, Value::String(word)) => check_word(node, word, value, key, faults),
+        _ => faults.push(wrong_type(node, value, key)),
+    }
+}
+
+fn check_table(node: Node, table: &toml::Table, key: &Key, faults: &mut Vec<Fault>) {
+    let mut meant = Vec::new();
+    for (name, value) in table {
+        match node.child(name) {
+            Some(child) => check(child, value, &key.child(name), faults),
+            None => {
+                meant.extend(nearest(name, node.names()));
+                faults.push(unknown(node, key, name));
+            }
+        }
+    }
+    // a key that is there under a wrong name is not missing as well
+    for name in node
+        .required()
+        .filter(|name| !table.contains_key(*name) && !meant.contains(name))
+    {
+        let missing = key.child(name);
+        let help = description(&missing).map(|d| format!("{name}: {d}"));
+        faults.push(Fault::missing(&missing, help));
+    }
+}
+
+fn check_list(node: Node, items: &[Value], value: &Value, key: &Key, faults: &mut Vec<Fault>) {
+    #[expect(clippy::cast_precision_loss, reason = "no list has 2^52 items")]
+    let length = items.len() as f64;
+    let short = node.number("minItems").is_some_and(|min| length < min);
+    let long = node.number("maxItems").is_some_and(|max| length > max);
+    if short || long {
+        let wanted = node.number("minItems").unwrap_or_default();
+        faults.push(Fault::value(
+            key,
+            value,
+            &format!("{wanted} numbers are needed, {length} were given"),
+        ));
+        return;
+    }
+    for (i, item) in items.iter().enumerate() {
+        check(node.items(), item, &key.child(i), faults);
+    }
+}
+
+/// NaN fails every comparison, so it is asked for what is right, not for what is wrong.
+fn check_range(node: Node, x: f64, value: &Value, key: &Key, faults: &mut Vec<Fault>) {
+    let above = node.number("minimum").is_none_or(|min| x >= min)
+        && node.number("exclusiveMinimum").is_none_or(|min| x > min);
+    let below = node.number("maximum").is_none_or(|max| x <= max)
+        && node.number("exclusiveMaximum").is_none_or(|max| x < max);
+    if !(x.is_finite() && above && below) {
+        faults.push(Fault::value(
+            key,
+            value,
+            &format!("{} is needed", node.wanted()),
+        ));
+    }
+}
+
+fn check_word(node: Node, word: &str, value: &Value, key: &Key, faults: &mut Vec<Fault>) {
+    let words = node.words();
+    if !words.is_empty() && !words.contains(&word) {
+        let mut fault = Fault::value(key, value, &format!("{} is needed", node.wanted()));
+        if let Some(near) = nearest(word, words.into_iter()) {
+            fault.help = Some(format!("did you mean {near:?}?"));
+        }
+        faults.push(fault);
+    }
+    if node.text("format") == Some("mode-set")
+        && let Err(reason) = word.parse::<crate::Modes>()
+    {
+        faults.push(Fault::value(key, value, &reason));
+    }
+}
+
+fn check_any(node: Node, value: &Value, key: &Key, faults: &mut Vec<Fault>) {
+    let wanted = if value.is_table() {
+        Kind::Table
+    } else {
+        Kind::Word
+    };
+    match node.alternatives().find(|n| n.kind() == wanted) {
+        Some(branch) if value.is_table() || value.is_str() => check(branch, value, key, faults),
+        _ => faults.push(wrong_type(node, value, key)),
+    }
+}
+
+fn wrong_type(node: Node, value: &Value, key: &Key) -> Fault {
+    let what = format!("{} was given, {} is needed", type_of(value), node.wanted());
+    let mut fault = Fault::value(key, value, &what);
+    match node.kind() {
+        Kind::Table => fault.help = Some(format!("write it as a table, [{key}]")),
+        Kind::Tables => {
+            fault.help = Some(format!(
+                "write [[{key}]], in double brackets, once for each"
+            ));
+        }
+        _ => {}
+    }
+    fault
+}
+
+fn unknown(node: Node, table: &Key, name: &str) -> Fault {
+    let key = table.child(name);
+    let names: Vec<&str> = node.names().collect();
+    let takes = format!("{} takes {}", header(table), names.join(", "));
+    let help = match (nearest(name, names.iter().copied()), elsewhere(name)) {
+        (Some(near), _) => format!("did you mean {}? {takes}", table.child(near)),
+        (None, Some(other)) => format!("did you mean {other}? {takes}"),
+        (None, None) => takes,
+    };
+    Fault {
+        kind: StudyErrorKind::Key,
+        message: format!("unknown key {key}"),
+        key,
+        point: Point::Name,
+        help: Some(help),
+    }
+}
+
+/// A key of that name in another table.
+fn elsewhere(name: &str) -> Option<String> {
+    keys()
+        .into_iter()
+        .find(|key| key.rsplit('.').next() == Some(name))
+}
+
+/// The candidate most like `word`, if any is like it at all.
+pub(crate) fn nearest<'a>(
+    word: &str,
+    candidates: impl Iterator<Item = &'a str>,
+) -> Option<&'a str> {
+    let likeness = |c: &str| strsim::jaro_winkler(&word.to_lowercase(), c);
+    let best = candidates
+        .map(|c| (likeness(c), c))
+        .max_by(|a, b| a.0.total_cmp(&b.0))?;
+    // 0.8: "lenght" and "dampingratio" find their key, "colour" finds none
+    (best.0 > 0.8).then_some(best.1)
+}
+
+/// Description of a key from the schema.
+pub(crate) fn description(key: &Key) -> Option<String> {
+    let node = Node::root().find(key.segments())?;
+    let text = node.text("description")?;
+    Some(text.trim_end_matches('.').to_owned())
+}
+
+/// How a table is written in the file.
+fn header(table: &Key) -> String {
+    let segments = table.segments();
+    match Node::root().find(segments).map(Node::kind) {
+        _ if segments.is_empty() => "a study".to_owned(),
+        Some(Kind::Table) if segments.len() == 2 => format!("[[{}]]", table.without_indices()),
+        Some(Kind::Table) => format!("[{table}]"),
+        _ => format!("{table}"),
+    }
+}
+
+fn type_of(value: &Value) -> &'static str {
+    match value {
+        Value::String(_) => "text",
+        Value::Integer(_) => "a whole number",
+        Value::Float(_) => "a number with a decimal point",
+        Value::Boolean(_) => "true or false",
+        Value::Datetime(_) => "a date",
+        Value::Array(_) => "a list",
+        Value::Table(_) => "a table",
+    }
+}
+
+/// The value as written, cut to a length that fits in a message.
+fn shown(value: &Value) -> String {
+    let text = value.to_string().replace('\n', " ");
+    let mut short: String = text.chars().take(60).collect();
+    if short.len() < text.len() {
+        short.push_str("...");
+    }
+    short
+}

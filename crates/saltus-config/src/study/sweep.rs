@@ -1,0 +1,91 @@
+//! `[sweep]`: one parameter, its values, and how the state goes from one to the next.
+
+use crate::validate::finite;
+use garde::Validate;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What `saltus sweep` runs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Validate)]
+#[serde(deny_unknown_fields)]
+pub struct SweepTable {
+    /// The key that changes (a word), such as "jumper.damping_ratio" for every jumper,
+    /// "jumper.0.mass" for one, or "base.frequency_ratio".
+    #[garde(skip)]
+    pub parameter: String,
+    /// First value (in the unit of the parameter), such as 0.1.
+    #[garde(range(min = -1e13, max = 1e13), custom(finite))]
+    pub from: f64,
+    /// Last value (in the unit of the parameter), such as 0.5.
+    #[garde(range(min = -1e13, max = 1e13), custom(finite))]
+    pub to: f64,
+    /// Number of values, both ends included (-, a whole number), such as 401.
+    #[garde(range(min = 2, max = 10_000_000))]
+    pub count: u32,
+    /// How the state is carried on (a word): "up", "down", "both" or "restarts".
+    #[serde(default)]
+    #[garde(skip)]
+    pub direction: Direction,
+    /// Forcing periods left out at each value (-, a whole number), such as 300.
+    #[serde(default = "default_transient")]
+    #[garde(range(min = 0, max = 10_000_000))]
+    pub transient: u32,
+    /// Forcing periods recorded at each value (-, a whole number), such as 100.
+    #[serde(default = "default_record")]
+    #[garde(range(min = 1, max = 10_000_000))]
+    pub record: u32,
+    /// First states [z/η, z'/(η ω_h)] of every jumper for "restarts" (-), such as [[3.0, 2.0], [-1.0, 0.0]].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[garde(skip)]
+    pub starts: Vec<[f64; 2]>,
+}
+
+fn default_transient() -> u32 {
+    300
+}
+
+fn default_record() -> u32 {
+    100
+}
+
+impl SweepTable {
+    /// DP Fig. 2b.
+    pub(super) fn paper() -> Self {
+        Self {
+            parameter: "jumper.damping_ratio".to_owned(),
+            from: 0.1,
+            to: 0.5,
+            count: 401,
+            direction: Direction::Both,
+            transient: default_transient(),
+            record: default_record(),
+            starts: vec![[3.0, 2.0], [-1.0, 0.0], [5.0, -2.0]],
+        }
+    }
+
+    /// The values in ascending order of index, `from` first and `to` last, both exact.
+    pub fn values(&self) -> Vec<f64> {
+        let last = self.count.saturating_sub(1);
+        let at = |i: u32| match i {
+            0 => self.from,
+            i if i == last => self.to,
+            i => self.from + (self.to - self.from) * f64::from(i) / f64::from(last),
+        };
+        (0..self.count).map(at).collect()
+    }
+}
+
+/// How the state goes from one value to the next.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Direction {
+    /// From `from` to `to`, the last state of each value starting the next.
+    #[default]
+    Up,
+    /// From `to` to `from`, the last state of each value starting the next.
+    Down,
+    /// One sweep each way.
+    Both,
+    /// Every value anew from each of `starts`.
+    Restarts,
+}

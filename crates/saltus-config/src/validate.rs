@@ -1,0 +1,298 @@
+//! Is a study of the right shape also a possible one?
+
+use crate::error::{StudyError, StudyErrorKind};
+use crate::key::Key;
+use crate::schema::Node;
+use crate::structure::{Fault, Point, description};
+use crate::study::{Direction, Law, Modes, Reference, Study};
+use crate::{Basis, Parameter};
+use garde::Validate;
+use toml::Value;
+
+/// Comparisons with NaN are false, so a range lets it pass; this does not.
+pub(crate) fn finite(value: &f64, _: &()) -> garde::Result {
+    if value.is_finite() {
+        Ok(())
+    } else {
+        Err(garde::Error::new("a finite number is needed"))
+    }
+}
+
+pub(crate) fn finite_if_given(value: &Option<f64>, context: &()) -> garde::Result {
+    value.as_ref().map_or(Ok(()), |v| finite(v, context))
+}
+
+pub(crate) fn poisson(value: &f64, _: &()) -> garde::Result {
+    let possible = *value > -1.0 && *value < 0.5;
+    if possible {
+        Ok(())
+    } else {
+        Err(garde::Error::new("a number between -1 and 0.5 is needed"))
+    }
+}
+
+impl Study {
+    /// Checks every range and what keys say about each other; [`parse`](crate::parse) does so too.
+    ///
+    /// # Errors
+    /// A [`StudyError`] that names the key.
+    pub fn validate(&self) -> Result<(), StudyError> {
+        refuse(faults(self))
+    }
+}
+
+/// The first fault as an error that carries the others.
+pub(crate) fn refuse(faults: Vec<Fault>) -> Result<(), StudyError> {
+    let problems = faults.into_iter().map(|fault| {
+        let error = StudyError::new(fault.kind, fault.message).key_is(fault.key.to_string());
+        match fault.help {
+            Some(help) => error.help(help),
+            None => error,
+        }
+    });
+    StudyError::first_of(problems.collect()).map_or(Ok(()), Err)
+}
+
+/// Everything that is wrong with the study.
+pub(crate) fn faults(study: &Study) -> Vec<Fault> {
+    let mut faults = faults_without_sweep(study);
+    // the ends of a sweep are tried on a study that is itself sound
+    if faults.is_empty() {
+        sweep(study, &mut faults);
+    }
+    faults
+}
+
+/// Everything that is wrong with the study, sweep aside.
+pub(crate) fn faults_without_sweep(study: &Study) -> Vec<Fault> {
+    let mut faults = ranges(study);
+    thickness(study, &mut faults);
+    modes(study, &mut faults);
+    jumpers(study, &mut faults);
+    base(study, &mut faults);
+    if study.simulate.transient >= study.simulate.periods {
+        let what = format!(
+            "fewer than simulate.periods = {} are needed",
+            study.simulate.periods
+        );
+        faults.push(wrong("simulate.transient", study.simulate.transient, &what));
+    }
+    faults
+}
+
+fn ranges(study: &Study) -> Vec<Fault> {
+    let Err(report) = Validate::validate(study) else {
+        return Vec::new();
+    };
+    let tree = Value::try_from(study).unwrap_or(Value::Boolean(false));
+    let fault = |(path, error): &(garde::Path, garde::Error)| {
+        let key = key(&path.to_string().replace('[', ".").replace(']', ""));
+        let given = key.segments().iter().try_fold(&tree, |at, name| match at {
+            Value::Array(items) => items.get(name.parse::<usize>().ok()?),
+            other => other.get(name.as_str()),
+        });
+        let wanted = Node::root()
+            .find(key.segments())
+            .map_or_else(|| error.to_string(), Node::wanted);
+        Fault::value(&key, given.unwrap_or(&tree), &format!("{wanted} is needed"))
+    };
+    let mut faults: Vec<Fault> = report.iter().map(fault).collect();
+    faults.dedup();
+    faults
+}
+
+fn thickness(study: &Study, faults: &mut Vec<Fault>) {
+    let plate = &study.plate;
+    let side = plate.length.min(plate.width);
+    if plate.thickness >= side {
+        let what = format!("a plate is thinner than its shorter side, {side} m");
+        faults.push(wrong("plate.thickness", plate.thickness, &what));
+    }
+}
+
+fn modes(study: &Study, faults: &mut Vec<Fault>) {
+    let Modes::Lists(lists) = &study.plate.modes else {
+        return;
+    };
+    if lists.w.is_empty() {
+        let empty = Value::Array(Vec::new());
+        faults.push(Fault::value(
+            &key("plate.modes.w"),
+            &empty,
+            "at least one transverse term is needed",
+        ));
+    }
+    // a cosine may have no half-wave
+    let zero = u32::from(study.plate.basis == Basis::Fixed);
+    term_list(
+        "plate.modes.u",
+        &lists.u,
+        [1, zero],
+        Modes::MAX_IN_PLANE,
+        faults,
+    );
+    term_list(
+        "plate.modes.v",
+        &lists.v,
+        [zero, 1],
+        Modes::MAX_IN_PLANE,
+        faults,
+    );
+    term_list(
+        "plate.modes.w",
+        &lists.w,
+        [1, 1],
+        Modes::MAX_TRANSVERSE,
+        faults,
+    );
+}
+
+fn term_list(
+    name: &str,
+    terms: &[[u32; 2]],
+    least: [u32; 2],
+    most_terms: usize,
+    faults: &mut Vec<Fault>,
+) {
+    if terms.len() > most_terms {
+        let what = format!(
+            "{} terms were given, at most {most_terms} are allowed",
+            terms.len()
+        );
+        faults.push(wrong(name, "[...]", &what));
+        return;
+    }
+    for (i, term) in terms.iter().enumerate() {
+        let at = key(name).child(i);
+        let given = Value::Array(term.iter().map(|&n| Value::from(n)).collect());
+        let most = Modes::MAX_HALF_WAVES;
+        if (0..2).any(|k| !(least[k]..=most).contains(&term[k])) {
+            let what = format!(
+                "half-wave numbers from {} and {} up to {most} are needed",
+                least[0], least[1]
+            );
+            faults.push(Fault::value(&at, &given, &what));
+        } else if terms[..i].contains(term) {
+            faults.push(Fault::value(
+                &at,
+                &given,
+                "this term is already in the list",
+            ));
+        }
+    }
+}
+
+fn jumpers(study: &Study, faults: &mut Vec<Fault>) {
+    for (i, jumper) in study.jumper.iter().enumerate() {
+        let at = |name: &str| format!("jumper.{i}.{name}");
+        let sides = [
+            ("x", jumper.x, "length", study.plate.length),
+            ("y", jumper.y, "width", study.plate.width),
+        ];
+        for (name, position, side, extent) in sides {
+            if position <= 0.0 || position >= extent {
+                let what =
+                    format!("outside the plate, 0 < {name} < plate.{side} = {extent} m is needed");
+                faults.push(wrong(&at(name), position, &what));
+            }
+        }
+        if study.contact.law == Law::RelaxingLeg && jumper.damping_ratio == 0.0 {
+            let what =
+                "contact.law = \"relaxing-leg\" needs a number above 0, else the leg never relaxes";
+            faults.push(wrong(&at("damping_ratio"), jumper.damping_ratio, what));
+        }
+    }
+}
+
+fn base(study: &Study, faults: &mut Vec<Fault>) {
+    let help = "give one of base.frequency_ratio (-) and base.frequency (Hz), and not both";
+    match (study.base.frequency, study.base.frequency_ratio) {
+        (None, None) => faults.push(Fault::missing(
+            &key("base.frequency_ratio"),
+            Some(help.to_owned()),
+        )),
+        (Some(hertz), Some(ratio)) => {
+            let what = format!("base.frequency_ratio = {ratio} is given too");
+            let mut fault = wrong("base.frequency", hertz, &what);
+            fault.help = Some(help.to_owned());
+            faults.push(fault);
+        }
+        (None, Some(ratio))
+            if study.jumper.is_empty() && study.base.reference != Reference::Plate =>
+        {
+            let what = "an empty plate has no body frequency to multiply";
+            let mut fault = wrong("base.frequency_ratio", ratio, what);
+            fault.help = Some(
+                "set base.reference = \"plate\", give base.frequency in Hz, or add a [[jumper]]"
+                    .to_owned(),
+            );
+            faults.push(fault);
+        }
+        _ => {}
+    }
+}
+
+fn sweep(study: &Study, faults: &mut Vec<Fault>) {
+    let Some(sweep) = &study.sweep else { return };
+    let parameter = match Parameter::parse(&sweep.parameter) {
+        Ok(parameter) => parameter,
+        Err(error) => {
+            let mut fault = wrong(
+                "sweep.parameter",
+                sweep.parameter.as_str(),
+                &error.to_string(),
+            );
+            fault.help = error.advice().map(str::to_owned);
+            return faults.push(fault);
+        }
+    };
+    // without people the rest of the study is still good for the empty plate; `apply` refuses the sweep
+    let nobody = study.jumper.is_empty() && sweep.parameter.starts_with("jumper.");
+    let ends = [("sweep.from", sweep.from), ("sweep.to", sweep.to)];
+    for (name, value) in ends.into_iter().filter(|_| !nobody) {
+        if let Err(error) = parameter.apply(study, value) {
+            let mut fault = wrong(name, value, &error.to_string());
+            fault.help = error.advice().map(str::to_owned);
+            faults.push(fault);
+        }
+    }
+    if sweep.from == sweep.to {
+        faults.push(wrong(
+            "sweep.to",
+            sweep.to,
+            "a value different from sweep.from is needed",
+        ));
+    }
+    starts(sweep.direction, &sweep.starts, faults);
+}
+
+fn starts(direction: Direction, starts: &[[f64; 2]], faults: &mut Vec<Fault>) {
+    if direction == Direction::Restarts && starts.is_empty() {
+        let key = key("sweep.starts");
+        let help = description(&key).map(|d| format!("direction \"restarts\" needs it: {d}"));
+        faults.push(Fault::missing(&key, help));
+    }
+    for (i, start) in starts.iter().enumerate() {
+        for (k, &value) in start.iter().enumerate() {
+            if !(-1e6..=1e6).contains(&value) {
+                faults.push(wrong(
+                    &format!("sweep.starts.{i}.{k}"),
+                    value,
+                    "a number from -1e6 to 1e6 is needed",
+                ));
+            }
+        }
+    }
+}
+
+fn key(name: &str) -> Key {
+    Key::parse(name).unwrap_or_default()
+}
+
+fn wrong(name: &str, given: impl Into<Value>, what: &str) -> Fault {
+    Fault {
+        kind: StudyErrorKind::Value,
+        point: Point::Value,
+        ..Fault::value(&key(name), &given.into(), what)
+    }
+}

@@ -1,0 +1,110 @@
+//! Why a result could not leave: one enum for the whole crate.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Failure to draw or to write a result. Every message names the place and the reason.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ResultsError {
+    /// The operating system refused a file operation.
+    #[error("cannot {action} `{}`: {}", path.display(), reason(source))]
+    Io {
+        /// What was attempted, as a verb: "write", "create the folder", ...
+        action: &'static str,
+        /// The path in question.
+        path: PathBuf,
+        /// The refusal itself.
+        source: io::Error,
+    },
+    /// The target folder holds files that this program did not write.
+    #[error(
+        "the folder `{}` is not empty and holds no `{marker}`: \
+         choose a new folder, an empty one, or one written by this program",
+        path.display()
+    )]
+    ForeignFolder {
+        /// The folder that was left alone.
+        path: PathBuf,
+        /// The marker file that would have allowed the replacement.
+        marker: &'static str,
+    },
+    /// The target of a folder is a file, or the target of a file is a folder.
+    #[error("`{}` is not a {expected}", path.display())]
+    WrongKind {
+        /// The path in question.
+        path: PathBuf,
+        /// What it should have been: "folder" or "file".
+        expected: &'static str,
+    },
+    /// A name inside a result folder that is not a plain relative path.
+    #[error(
+        "`{name}` is no name for a file inside a result folder: use a relative path without `..`"
+    )]
+    BadName {
+        /// The refused name.
+        name: String,
+    },
+    /// A table could not be written to its destination.
+    #[error("cannot write the table: {}", reason(source))]
+    Table {
+        /// The refusal of the destination.
+        source: io::Error,
+    },
+    /// A row has another number of cells than the header.
+    #[error("row {row} has {cells} cells, the header has {columns}")]
+    RowLength {
+        /// Row number, counted from 1.
+        row: usize,
+        /// Cells in the row.
+        cells: usize,
+        /// Columns in the header.
+        columns: usize,
+    },
+    /// A PNG of this size cannot be drawn.
+    #[error(
+        "a PNG of {width} x {height} at scale {scale} cannot be drawn: choose a scale between 0.5 and 8"
+    )]
+    PngScale {
+        /// Width of the figure (px).
+        width: f64,
+        /// Height of the figure (px).
+        height: f64,
+        /// The refused scale (-).
+        scale: f32,
+    },
+    /// The rasteriser refused the figure.
+    #[error("the figure could not be turned into a PNG: {reason}")]
+    Png {
+        /// The rasteriser's own words.
+        reason: String,
+    },
+}
+
+impl ResultsError {
+    /// An [`ResultsError::Io`] that remembers what was attempted and where.
+    pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
+        let path = path.to_path_buf();
+        move |source| Self::Io {
+            action,
+            path,
+            source,
+        }
+    }
+}
+
+/// The common refusals in words a person can act on; anything else in the system's own.
+fn reason(source: &io::Error) -> String {
+    let words = match source.kind() {
+        io::ErrorKind::PermissionDenied => "permission denied",
+        io::ErrorKind::NotFound => "no such file or folder",
+        io::ErrorKind::NotADirectory => "a part of the path is a file, not a folder",
+        io::ErrorKind::IsADirectory => "it is a folder",
+        io::ErrorKind::StorageFull => "no space left on the device",
+        io::ErrorKind::QuotaExceeded => "the disk quota is used up",
+        io::ErrorKind::ReadOnlyFilesystem => "the file system is read-only",
+        io::ErrorKind::BrokenPipe => "the reader closed the pipe",
+        _ => return source.to_string(),
+    };
+    words.to_owned()
+}

@@ -1,0 +1,141 @@
+//! The legend: a row of entries above the panels, broken into more rows where needed. It stands
+//! outside the axes, so it cannot cover data.
+
+use super::colour::Colour;
+use super::marks::{Ink, Step, dashes};
+use super::panel::{Key, Panel, Swatch};
+use super::text;
+use kuva::render::render::{Primitive, TextAnchor};
+
+/// Size of legend text (px).
+const SIZE: u32 = 13;
+/// Height of a row (px).
+const ROW: f64 = 21.0;
+/// Space between entries (px).
+const SPACE: f64 = 22.0;
+
+/// Entries of all panels, each label once.
+pub(crate) fn keys(panels: &[Panel]) -> Vec<Key> {
+    let mut keys: Vec<Key> = Vec::new();
+    for key in panels.iter().flat_map(|panel| &panel.keys) {
+        if !keys.iter().any(|known| known.label == key.label) {
+            keys.push(key.clone());
+        }
+    }
+    keys
+}
+
+/// Width of the widest entry (px).
+pub(crate) fn widest(keys: &[Key]) -> f64 {
+    keys.iter().map(extent).fold(0.0, f64::max)
+}
+
+fn extent(key: &Key) -> f64 {
+    swatch_width(key) + 7.0 + text::width(&key.label, SIZE) + SPACE
+}
+
+/// Entries in rows no wider than `width` (px).
+pub(crate) fn rows(keys: &[Key], width: f64) -> Vec<Vec<Key>> {
+    let mut rows: Vec<Vec<Key>> = Vec::new();
+    let mut used = f64::INFINITY;
+    for key in keys {
+        let need = extent(key);
+        if used + need - SPACE > width {
+            rows.push(Vec::new());
+            used = 0.0;
+        }
+        used += need;
+        if let Some(row) = rows.last_mut() {
+            row.push(key.clone());
+        }
+    }
+    rows
+}
+
+/// Height of `rows` (px).
+pub(crate) fn height(rows: &[Vec<Key>]) -> f64 {
+    if rows.is_empty() {
+        0.0
+    } else {
+        rows.len() as f64 * ROW + 5.0
+    }
+}
+
+/// Draws `rows` from the corner at `left`, `top`.
+pub(crate) fn draw(
+    rows: &[Vec<Key>],
+    left: f64,
+    top: f64,
+    words: &mut Vec<Primitive>,
+    ink: &mut Vec<Ink>,
+) {
+    for (number, row) in rows.iter().enumerate() {
+        let middle = top + (number as f64 + 0.5) * ROW;
+        let mut x = left;
+        for key in row {
+            swatch(key.swatch, x, middle, swatch_width(key), ink);
+            words.push(label(&key.label, x + swatch_width(key) + 7.0, middle));
+            x += extent(key);
+        }
+    }
+}
+
+/// Room of the swatch (px): a dot needs less than a line.
+fn swatch_width(key: &Key) -> f64 {
+    if matches!(key.swatch, Swatch::Dot { .. }) {
+        12.0
+    } else {
+        26.0
+    }
+}
+
+fn swatch(swatch: Swatch, x: f64, y: f64, width: f64, ink: &mut Vec<Ink>) {
+    let centre = (x + width / 2.0, y);
+    match swatch {
+        Swatch::Dot { radius, colour } => ink.push(Ink::Dot {
+            centre,
+            radius,
+            colour,
+        }),
+        Swatch::Dashes => ink.push(dashes((x, y), (x + width, y))),
+        Swatch::Shade { colour } => {
+            ink.push(Ink::Shade {
+                corner: (x, y - 7.0),
+                size: (width, 14.0),
+                colour,
+            });
+        }
+        Swatch::Line {
+            width: pen,
+            colour,
+            dotted,
+        } => {
+            let steps = vec![Step::Move(x, y), Step::Line(x + width, y)];
+            ink.push(Ink::Trail {
+                steps,
+                width: pen,
+                colour,
+            });
+            if dotted {
+                ink.push(Ink::Dot {
+                    centre,
+                    radius: 3.6,
+                    colour,
+                });
+            }
+        }
+    }
+}
+
+fn label(content: &str, x: f64, middle: f64) -> Primitive {
+    Primitive::Text {
+        x,
+        y: middle + 0.36 * f64::from(SIZE),
+        content: text::printable(content),
+        size: SIZE,
+        anchor: TextAnchor::Start,
+        rotate: None,
+        bold: false,
+        color: Some(Colour::BLACK.into()),
+    }
+}

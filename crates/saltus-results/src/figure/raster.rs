@@ -1,0 +1,267 @@
+//! The PNG backend: kuva's rasteriser for axes and upright type, ours for the rest.
+//!
+//! kuva 0.6 frays slanted lines (no coverage in the vertical direction) and darkens rotated type (it
+//! blends onto a transparent ground as if it were opaque). So the marks are drawn by tiny-skia, and
+//! the labels of the vertical axes are drawn upright and turned by exact quarter turns.
+
+use super::colour::Colour;
+use super::compose::Drawing;
+use super::marks::{Ink, RIM, SHADE, Step};
+use super::text;
+use crate::ResultsError;
+use kuva::RasterBackend;
+use kuva::render::render::{Primitive, Scene, TextAnchor};
+use tiny_skia::{
+    FillRule, IntSize, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Rect, Stroke, Transform,
+};
+
+/// The drawing as PNG bytes with `scale` pixels per unit.
+pub(crate) fn png(drawing: Drawing, scale: f32) -> Result<Vec<u8>, ResultsError> {
+    let Drawing { mut scene, ink } = drawing;
+    let (width, height) = (scene.width, scene.height);
+    let pixels = width * height * f64::from(scale).powi(2);
+    if !(0.5..=8.0).contains(&scale) || pixels > 2e8 {
+        return Err(ResultsError::PngScale {
+            width,
+            height,
+            scale,
+        });
+    }
+    let turned = take_turned(&mut scene);
+    let mut image = pixmap(&scene, scale)?;
+    for label in &turned {
+        label.blit(&mut image, scale)?;
+    }
+    for mark in &ink {
+        draw(mark, &mut image, Transform::from_scale(scale, scale));
+    }
+    encode(&image)
+}
+
+fn refused(reason: impl ToString) -> ResultsError {
+    ResultsError::Png {
+        reason: reason.to_string(),
+    }
+}
+
+/// What kuva can draw well, as pixels.
+fn pixmap(scene: &Scene, scale: f32) -> Result<Pixmap, ResultsError> {
+    let bytes = RasterBackend::new()
+        .with_scale(scale)
+        .render_scene(scene)
+        .map_err(refused)?;
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
+        .read_info()
+        .map_err(refused)?;
+    let size = reader
+        .output_buffer_size()
+        .ok_or_else(|| refused("the image is too large"))?;
+    let mut pixels = vec![0; size];
+    let info = reader.next_frame(&mut pixels).map_err(refused)?;
+    let size =
+        IntSize::from_wh(info.width, info.height).ok_or_else(|| refused("the image is empty"))?;
+    // kuva writes four channels on an opaque ground, which is tiny-skia's own format.
+    Pixmap::from_vec(pixels, size).ok_or_else(|| refused("the image is not of four channels"))
+}
+
+/// A label to be read from below to above, by its anchor on the sheet.
+struct Turned {
+    x: f64,
+    y: f64,
+    content: String,
+    size: u32,
+}
+
+/// Takes the rotated labels out of the scene, following the groups that move them.
+fn take_turned(scene: &mut Scene) -> Vec<Turned> {
+    let mut turned = Vec::new();
+    let mut shift = (0.0, 0.0);
+    scene.elements.retain(|element| match element {
+        // Panels are one group deep.
+        Primitive::GroupStart { transform, .. } => {
+            shift = transform
+                .as_deref()
+                .and_then(translation)
+                .unwrap_or((0.0, 0.0));
+            true
+        }
+        Primitive::GroupEnd => {
+            shift = (0.0, 0.0);
+            true
+        }
+        Primitive::Text {
+            x,
+            y,
+            content,
+            size,
+            rotate: Some(_),
+            ..
+        } => {
+            turned.push(Turned {
+                x: x + shift.0,
+                y: y + shift.1,
+                content: content.clone(),
+                size: *size,
+            });
+            false
+        }
+        _ => true,
+    });
+    turned
+}
+
+fn translation(transform: &str) -> Option<(f64, f64)> {
+    let (x, y) = transform
+        .strip_prefix("translate(")?
+        .strip_suffix(')')?
+        .split_once(',')?;
+    Some((x.parse().ok()?, y.parse().ok()?))
+}
+
+impl Turned {
+    /// Draws the label upright on a slip of its own and copies that a quarter turn to the left.
+    fn blit(&self, image: &mut Pixmap, scale: f32) -> Result<(), ResultsError> {
+        let height = f64::from(self.size) * 2.0;
+        let mut slip = Scene::new(text::width(&self.content, self.size) + 10.0, height);
+        slip.add(Primitive::Text {
+            x: slip.width / 2.0,
+            y: height / 2.0,
+            content: self.content.clone(),
+            size: self.size,
+            anchor: TextAnchor::Middle,
+            rotate: None,
+            bold: false,
+            color: Some(Colour::BLACK.into()),
+        });
+        let slip = pixmap(&slip, scale)?;
+        let anchor = |v: f64| (v * f64::from(scale)).round() as i64;
+        let (middle, baseline) = (i64::from(slip.width()) / 2, i64::from(slip.height()) / 2);
+        for row in 0..slip.height() {
+            for column in 0..slip.width() {
+                let x = anchor(self.x) + i64::from(row) - baseline;
+                let y = anchor(self.y) - (i64::from(column) - middle);
+                copy_darker(&slip, (column, row), image, (x, y));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Copies a pixel where it is darker than what is there, so that white slips cover nothing.
+fn copy_darker(from: &Pixmap, (column, row): (u32, u32), to: &mut Pixmap, (x, y): (i64, i64)) {
+    if x < 0 || y < 0 || x >= i64::from(to.width()) || y >= i64::from(to.height()) {
+        return;
+    }
+    let source = 4 * (row as usize * from.width() as usize + column as usize);
+    let target = 4 * (y as usize * to.width() as usize + x as usize);
+    for channel in 0..3 {
+        let value = from.data()[source + channel];
+        let there = &mut to.data_mut()[target + channel];
+        *there = value.min(*there);
+    }
+}
+
+fn draw(mark: &Ink, image: &mut Pixmap, transform: Transform) {
+    match mark {
+        Ink::Trail {
+            steps,
+            width,
+            colour,
+        } => {
+            // A path of many strokes is slow to sort: a few thousand at a time are faster.
+            for part in steps
+                .chunk_by(|_, next| !matches!(next, Step::Move(..)))
+                .collect::<Vec<_>>()
+                .chunks(500)
+            {
+                if let Some(path) = path(part.iter().copied().flatten().copied()) {
+                    image.stroke_path(&path, &paint(*colour, 1.0), &pen(*width), transform, None);
+                }
+            }
+        }
+        Ink::Dot {
+            centre,
+            radius,
+            colour,
+        } => {
+            let circle = PathBuilder::from_circle(centre.0 as f32, centre.1 as f32, *radius as f32);
+            let Some(circle) = circle else { return };
+            image.fill_path(
+                &circle,
+                &paint(*colour, 1.0),
+                FillRule::Winding,
+                transform,
+                None,
+            );
+            image.stroke_path(
+                &circle,
+                &paint(Colour(255, 255, 255), 1.0),
+                &pen(RIM),
+                transform,
+                None,
+            );
+        }
+        Ink::Shade {
+            corner,
+            size,
+            colour,
+        } => {
+            let rect = Rect::from_xywh(
+                corner.0 as f32,
+                corner.1 as f32,
+                size.0 as f32,
+                size.1 as f32,
+            );
+            let Some(rect) = rect else { return };
+            image.fill_rect(rect, &paint(*colour, SHADE), transform, None);
+        }
+    }
+}
+
+fn path(steps: impl Iterator<Item = Step>) -> Option<Path> {
+    let mut builder = PathBuilder::new();
+    for step in steps {
+        match step {
+            Step::Move(x, y) => builder.move_to(x as f32, y as f32),
+            Step::Line(x, y) => builder.line_to(x as f32, y as f32),
+        }
+    }
+    builder.finish()
+}
+
+fn pen(width: f64) -> Stroke {
+    Stroke {
+        width: width as f32,
+        line_cap: LineCap::Round,
+        line_join: LineJoin::Round,
+        ..Stroke::default()
+    }
+}
+
+fn paint(colour: Colour, opacity: f64) -> Paint<'static> {
+    let mut paint = Paint::default();
+    paint.set_color_rgba8(
+        colour.0,
+        colour.1,
+        colour.2,
+        (opacity * 255.0).round() as u8,
+    );
+    paint
+}
+
+/// Three channels suffice on a white ground.
+fn encode(image: &Pixmap) -> Result<Vec<u8>, ResultsError> {
+    let rgb: Vec<u8> = image
+        .data()
+        .chunks_exact(4)
+        .flat_map(|pixel| [pixel[0], pixel[1], pixel[2]])
+        .collect();
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, image.width(), image.height());
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    let mut writer = encoder.write_header().map_err(refused)?;
+    writer.write_image_data(&rgb).map_err(refused)?;
+    writer.finish().map_err(refused)?;
+    Ok(bytes)
+}

@@ -1,0 +1,298 @@
+//! Result folders and files that appear whole or not at all.
+//!
+//! Everything is written to a staging place on the same file system first; only when all of it is on
+//! disk does it move to its name. A run that fails, or is interrupted, leaves the target as it was.
+
+use crate::ResultsError;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::{Component, Path, PathBuf};
+use tempfile::TempDir;
+
+/// Name of the file that marks a folder as written by this program.
+pub const MARKER: &str = "saltus-result.json";
+
+/// Name of the page that links the other files; it moves last.
+pub const INDEX: &str = "index.html";
+
+/// How the names of staging places begin; one left by a killed process does not make a folder foreign.
+const STAGING: &str = ".saltus-staging-";
+
+/// A folder of results in the making. Dropping it without [`commit`](Self::commit) leaves no trace.
+#[derive(Debug)]
+pub struct ResultFolder {
+    target: PathBuf,
+    staging: TempDir,
+    /// Parents that did not exist before, outermost first; removed again if nothing is committed.
+    parents: Vec<PathBuf>,
+    files: Vec<PathBuf>,
+}
+
+impl ResultFolder {
+    /// Prepares the folder `dir`, which may be absent, empty, or one written by this program.
+    ///
+    /// The staging place is a sibling of `dir`, or lies inside `dir` if that exists: it may be a mount
+    /// point, from which a sibling could not be moved.
+    ///
+    /// # Errors
+    /// [`ResultsError::ForeignFolder`] if `dir` holds files of others, [`ResultsError::WrongKind`] if it
+    /// is a file, [`ResultsError::Io`] if the place cannot be written.
+    pub fn stage(dir: &Path) -> Result<Self, ResultsError> {
+        let exists = check_target(dir)?;
+        let home = if exists {
+            dir.to_path_buf()
+        } else {
+            parent(dir)
+        };
+        let parents = missing_ancestors(&home);
+        let staging = fs::create_dir_all(&home)
+            .map_err(ResultsError::io("create the folder", &home))
+            .and_then(|()| staging_in(&home))
+            .inspect_err(|_| remove_empty(&parents))?;
+        let folder = Self {
+            target: dir.to_path_buf(),
+            staging,
+            parents,
+            files: Vec::new(),
+        };
+        // The temporary folder is private to its owner; what is inside follows the user's own rules.
+        fs::create_dir(folder.content())
+            .map_err(ResultsError::io("create the folder", &folder.target))?;
+        Ok(folder)
+    }
+
+    /// Stages `bytes` as the file `name`, a relative path with `/` between folders.
+    ///
+    /// # Errors
+    /// [`ResultsError::BadName`], or [`ResultsError::Io`] if not every byte could be written.
+    pub fn write(&mut self, name: &str, bytes: impl AsRef<[u8]>) -> Result<(), ResultsError> {
+        self.write_with(name, |file| file.write_all(bytes.as_ref()))
+    }
+
+    /// Stages the file `name` through a buffered writer, for tables too long to hold in memory.
+    ///
+    /// # Errors
+    /// As [`write`](Self::write); errors of the closure count as errors of the file.
+    pub fn write_with(
+        &mut self,
+        name: &str,
+        fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), ResultsError> {
+        let relative = plain(name)?;
+        let staged = self.content().join(&relative);
+        let shown = self.target.join(&relative);
+        let folder = staged.parent().unwrap_or(&staged);
+        fs::create_dir_all(folder).map_err(ResultsError::io("create the folder of", &shown))?;
+        let file = File::create(&staged).map_err(ResultsError::io("create", &shown))?;
+        fill_file(file, fill).map_err(ResultsError::io("write", &shown))?;
+        if !self.files.contains(&relative) {
+            self.files.push(relative);
+        }
+        Ok(())
+    }
+
+    /// Moves everything into place and returns the folder's path.
+    ///
+    /// A new folder appears in one step. In an existing one, files of the same name are replaced one
+    /// by one, each in one step, the marker first and the index page last; others stay.
+    ///
+    /// # Errors
+    /// As [`stage`](Self::stage), if the target changed in between or a move fails.
+    pub fn commit(mut self) -> Result<PathBuf, ResultsError> {
+        self.write(MARKER, marker_text(&self.files))?;
+        if check_target(&self.target)? {
+            self.move_files()?;
+        } else {
+            let content = self.content();
+            fs::rename(content, &self.target)
+                .map_err(ResultsError::io("create the folder", &self.target))?;
+        }
+        self.parents.clear();
+        Ok(self.target.clone())
+    }
+
+    fn content(&self) -> PathBuf {
+        self.staging.path().join("content")
+    }
+
+    fn move_files(&self) -> Result<(), ResultsError> {
+        let mut files: Vec<&PathBuf> = self.files.iter().collect();
+        let order = |file: &Path| match file.to_str() {
+            Some(MARKER) => 0,
+            Some(INDEX) => 2,
+            _ => 1,
+        };
+        files.sort_by_key(|file| order(file));
+        for file in files {
+            let target = self.target.join(file);
+            let folder = target.parent().unwrap_or(&self.target);
+            fs::create_dir_all(folder)
+                .map_err(ResultsError::io("create the folder of", &target))?;
+            fs::rename(self.content().join(file), &target)
+                .map_err(ResultsError::io("replace", &target))?;
+        }
+        Ok(())
+    }
+}
+
+impl Drop for ResultFolder {
+    fn drop(&mut self) {
+        // The staging folder goes first, or its parents would not be empty.
+        if !self.parents.is_empty() {
+            let _ = fs::remove_dir_all(self.staging.path());
+            remove_empty(&self.parents);
+        }
+    }
+}
+
+/// Writes `bytes` to the file at `path`, which keeps its old content until all of the new is on disk.
+///
+/// A device or a pipe, such as `/dev/stdout`, is written through: replacing it would break it.
+///
+/// # Errors
+/// [`ResultsError::WrongKind`] if `path` is a folder, [`ResultsError::Io`] if not every byte could be
+/// written.
+pub fn write_file_atomically(path: &Path, bytes: impl AsRef<[u8]>) -> Result<(), ResultsError> {
+    let fill = |file: &mut dyn Write| file.write_all(bytes.as_ref());
+    match fs::metadata(path) {
+        Ok(data) if data.is_dir() => Err(ResultsError::WrongKind {
+            path: path.to_path_buf(),
+            expected: "file",
+        }),
+        Ok(data) if !data.is_file() => {
+            let open = fs::OpenOptions::new().write(true).open(path);
+            let mut file = open.map_err(ResultsError::io("open", path))?;
+            fill(&mut file)
+                .and_then(|()| file.flush())
+                .map_err(ResultsError::io("write", path))
+        }
+        // Behind a link the file is replaced, not the link.
+        Ok(_) => {
+            let real = fs::canonicalize(path).map_err(ResultsError::io("find", path))?;
+            replace(&real, fill).map_err(ResultsError::io("write", path))
+        }
+        Err(_) => replace(path, fill).map_err(ResultsError::io("write", path)),
+    }
+}
+
+fn replace(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(STAGING);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // Private by default; the result shall be as readable as any file of the user.
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    let staged = builder.tempfile_in(parent(path))?;
+    fill_file(staged.as_file(), fill)?;
+    staged.persist(path).map_err(|error| error.error)?;
+    Ok(())
+}
+
+/// Fills a file and makes sure that every byte arrived: a full disk may only show at the last flush.
+fn fill_file<F: Write + Synced>(
+    file: F,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut writer = BufWriter::with_capacity(1 << 16, file);
+    fill(&mut writer)?;
+    writer.flush()?;
+    writer.get_ref().synced()
+}
+
+/// Files whose late write errors can be asked for; closing one cannot report them.
+trait Synced {
+    fn synced(&self) -> io::Result<()>;
+}
+
+impl Synced for File {
+    fn synced(&self) -> io::Result<()> {
+        self.sync_data()
+    }
+}
+
+impl Synced for &File {
+    fn synced(&self) -> io::Result<()> {
+        self.sync_data()
+    }
+}
+
+fn staging_in(home: &Path) -> Result<TempDir, ResultsError> {
+    let staging = tempfile::Builder::new().prefix(STAGING).tempdir_in(home);
+    staging.map_err(ResultsError::io("write in the folder", home))
+}
+
+/// Whether the folder exists; an error if it may not be written to.
+fn check_target(dir: &Path) -> Result<bool, ResultsError> {
+    let data = match fs::metadata(dir) {
+        Ok(data) => data,
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(false),
+        Err(error) => return Err(ResultsError::io("read", dir)(error)),
+    };
+    if !data.is_dir() {
+        return Err(ResultsError::WrongKind {
+            path: dir.to_path_buf(),
+            expected: "folder",
+        });
+    }
+    let names = fs::read_dir(dir).map_err(ResultsError::io("read the folder", dir))?;
+    let foreign = names
+        .filter_map(Result::ok)
+        .any(|entry| !entry.file_name().to_string_lossy().starts_with(STAGING));
+    if foreign && !dir.join(MARKER).is_file() {
+        return Err(ResultsError::ForeignFolder {
+            path: dir.to_path_buf(),
+            marker: MARKER,
+        });
+    }
+    Ok(true)
+}
+
+/// The folder a path lies in; the current one for a bare name.
+fn parent(path: &Path) -> PathBuf {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent.to_path_buf(),
+        _ => PathBuf::from("."),
+    }
+}
+
+fn missing_ancestors(dir: &Path) -> Vec<PathBuf> {
+    let missing = dir
+        .ancestors()
+        .take_while(|a| !a.as_os_str().is_empty() && !a.exists());
+    let mut missing: Vec<_> = missing.map(Path::to_path_buf).collect();
+    missing.reverse();
+    missing
+}
+
+fn remove_empty(parents: &[PathBuf]) {
+    for parent in parents.iter().rev() {
+        // Fails if someone else put a file there, which is as it should be.
+        let _ = fs::remove_dir(parent);
+    }
+}
+
+/// A relative path of ordinary names only.
+fn plain(name: &str) -> Result<PathBuf, ResultsError> {
+    let path = Path::new(name);
+    let ordinary = path
+        .components()
+        .all(|part| matches!(part, Component::Normal(_)));
+    if name.is_empty() || name.ends_with('/') || !ordinary {
+        return Err(ResultsError::BadName {
+            name: name.to_owned(),
+        });
+    }
+    Ok(path.to_path_buf())
+}
+
+fn marker_text(files: &[PathBuf]) -> String {
+    let files: Vec<_> = files.iter().map(|file| file.to_string_lossy()).collect();
+    let marker = serde_json::json!({
+        "format": "saltus-result",
+        "version": env!("CARGO_PKG_VERSION"),
+        "files": files,
+    });
+    format!("{marker:#}\n")
+}

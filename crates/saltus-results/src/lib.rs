@@ -1,0 +1,20 @@
+//! What leaves saltus: figures, tables and result folders written whole or not at all.
+//!
+//! The crate receives plain data (slices of `f64` and labels) and knows no physics. Its parts:
+//!
+//! - [`figure`]: a small declarative figure model, rendered to SVG text and PNG bytes;
+//! - [`folder`]: result folders and single files that appear whole or not at all;
+//! - [`table`]: CSV that reads back to the same bits, and Markdown tables;
+//! - [`page`]: a self-contained HTML page that shows figures, tables and facts without a network.
+
+pub mod error;
+pub mod figure;
+pub mod folder;
+pub mod page;
+pub mod table;
+
+pub use error::ResultsError;
+pub use figure::{Axis, Cloud, Colour, Curves, Figure, History, Panel, Portrait};
+pub use folder::{ResultFolder, write_file_atomically};
+pub use page::{Fact, FigureBlock, Image, Page, Verdict};
+pub use table::{CsvTable, MarkdownTable, Value};

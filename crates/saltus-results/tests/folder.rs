@@ -1,0 +1,198 @@
+//! Result folders and files are whole or absent, and errors name the place and the reason.
+#![allow(clippy::unwrap_used)]
+
+use saltus_results::folder::{INDEX, MARKER};
+use saltus_results::{CsvTable, ResultFolder, ResultsError, write_file_atomically};
+use std::fs;
+use std::path::Path;
+
+fn names(dir: &Path) -> Vec<String> {
+    let mut names: Vec<_> = fs::read_dir(dir)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_new_folder_appears_whole_with_its_marker() {
+    let home = tempfile::tempdir().unwrap();
+    let target = home.path().join("a/b/results");
+    let mut folder = ResultFolder::stage(&target).unwrap();
+    folder.write(INDEX, "<html>").unwrap();
+    folder.write("figures/one.svg", "<svg/>").unwrap();
+    assert!(!target.exists());
+    assert_eq!(folder.commit().unwrap(), target);
+    assert_eq!(names(&target), ["figures", INDEX, MARKER]);
+    assert_eq!(names(target.parent().unwrap()), ["results"]);
+    let marker: serde_json::Value =
+        serde_json::from_slice(&fs::read(target.join(MARKER)).unwrap()).unwrap();
+    assert_eq!(marker["files"][1], "figures/one.svg");
+}
+
+#[test]
+fn dropping_leaves_no_trace() {
+    let home = tempfile::tempdir().unwrap();
+    let mut folder = ResultFolder::stage(&home.path().join("a/b")).unwrap();
+    folder.write("x", "y").unwrap();
+    drop(folder);
+    assert_eq!(names(home.path()), Vec::<String>::new());
+}
+
+#[test]
+fn a_foreign_folder_is_refused_and_left_alone() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("thesis.tex"), "years").unwrap();
+    let error = ResultFolder::stage(home.path()).unwrap_err();
+    assert!(
+        matches!(error, ResultsError::ForeignFolder { .. }),
+        "{error}"
+    );
+    assert!(error.to_string().contains(MARKER));
+    assert_eq!(names(home.path()), ["thesis.tex"]);
+}
+
+#[test]
+fn a_folder_that_fills_in_between_is_refused_at_the_end() {
+    let home = tempfile::tempdir().unwrap();
+    let target = home.path().join("out");
+    let folder = ResultFolder::stage(&target).unwrap();
+    fs::create_dir(&target).unwrap();
+    fs::write(target.join("other"), "x").unwrap();
+    assert!(matches!(
+        folder.commit(),
+        Err(ResultsError::ForeignFolder { .. })
+    ));
+    assert_eq!(names(&target), ["other"]);
+}
+
+#[test]
+fn an_empty_folder_and_our_own_are_filled_and_others_files_stay() {
+    let home = tempfile::tempdir().unwrap();
+    for text in ["old", "new"] {
+        let mut folder = ResultFolder::stage(home.path()).unwrap();
+        folder.write("data/table.csv", text).unwrap();
+        folder.commit().unwrap();
+        fs::write(home.path().join("notes.txt"), "mine").unwrap();
+    }
+    assert_eq!(names(home.path()), ["data", "notes.txt", MARKER]);
+    assert_eq!(
+        fs::read_to_string(home.path().join("data/table.csv")).unwrap(),
+        "new"
+    );
+}
+
+#[test]
+fn names_stay_inside() {
+    let home = tempfile::tempdir().unwrap();
+    let mut folder = ResultFolder::stage(&home.path().join("out")).unwrap();
+    for name in ["", "/etc/x", "../x", "a/../../x", "a/", "."] {
+        assert!(
+            matches!(folder.write(name, ""), Err(ResultsError::BadName { .. })),
+            "{name:?}"
+        );
+    }
+}
+
+#[test]
+fn a_path_below_a_file_says_so() {
+    let home = tempfile::tempdir().unwrap();
+    let file = home.path().join("file");
+    fs::write(&file, "x").unwrap();
+    let below = file.join("out");
+    for error in [
+        ResultFolder::stage(&below).unwrap_err(),
+        ResultFolder::stage(&below.join("deep")).unwrap_err(),
+        write_file_atomically(&below, "x").unwrap_err(),
+    ] {
+        assert!(
+            error.to_string().contains("a part of the path is a file"),
+            "{error}"
+        );
+        assert!(error.to_string().contains("out"), "{error}");
+    }
+    let error = ResultFolder::stage(&file).unwrap_err();
+    assert!(matches!(
+        error,
+        ResultsError::WrongKind {
+            expected: "folder",
+            ..
+        }
+    ));
+    assert!(matches!(
+        write_file_atomically(home.path(), ""),
+        Err(ResultsError::WrongKind {
+            expected: "file",
+            ..
+        })
+    ));
+    assert_eq!(fs::read_to_string(&file).unwrap(), "x");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_unwritable_place_says_so() {
+    // Not even root may create files here.
+    let target = Path::new("/proc/saltus-results");
+    assert!(matches!(
+        ResultFolder::stage(target),
+        Err(ResultsError::Io { .. })
+    ));
+    let error = write_file_atomically(target, "x").unwrap_err();
+    assert!(
+        error.to_string().contains("/proc/saltus-results"),
+        "{error}"
+    );
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_noticed_and_a_device_stays_a_device() {
+    let full = Path::new("/dev/full");
+    let error = write_file_atomically(full, "x").unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "cannot write `/dev/full`: no space left on the device"
+    );
+    assert!(!fs::metadata(full).unwrap().is_file());
+
+    let device = fs::OpenOptions::new().write(true).open(full).unwrap();
+    let mut table = CsvTable::new(device, &[], &["x"]).unwrap();
+    table.row([1.0.into()]).unwrap();
+    let error = table.finish().unwrap_err();
+    assert!(error.to_string().contains("no space left"), "{error}");
+}
+
+#[test]
+fn a_failed_file_is_not_part_of_the_folder() {
+    let home = tempfile::tempdir().unwrap();
+    let target = home.path().join("out");
+    let mut folder = ResultFolder::stage(&target).unwrap();
+    let full = || std::io::Error::from(std::io::ErrorKind::StorageFull);
+    let error = folder
+        .write_with("long.csv", |file| file.write_all(b"half").and(Err(full())))
+        .unwrap_err();
+    assert!(
+        error.to_string().contains("long.csv") && error.to_string().contains("no space left"),
+        "{error}"
+    );
+    drop(folder);
+    assert!(!target.exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_is_replaced_behind_its_link_and_readable_by_the_usual_people() {
+    use std::os::unix::fs::PermissionsExt;
+    let home = tempfile::tempdir().unwrap();
+    let (file, link) = (home.path().join("file"), home.path().join("link"));
+    fs::write(&file, "old").unwrap();
+    let usual = fs::metadata(&file).unwrap().permissions().mode();
+    std::os::unix::fs::symlink(&file, &link).unwrap();
+    write_file_atomically(&link, "new").unwrap();
+    assert_eq!(fs::read_to_string(&file).unwrap(), "new");
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert_eq!(fs::metadata(&file).unwrap().permissions().mode(), usual);
+    assert_eq!(names(home.path()), ["file", "link"]);
+}
