@@ -41,7 +41,10 @@ pub(crate) struct Touches {
 
 impl Guarded {
     pub(crate) fn new(structure: &Structure, modes: &[Mode]) -> Self {
-        Self { modes: modes.to_vec(), zero: vec![0; structure.guards.len()] }
+        Self {
+            modes: modes.to_vec(),
+            zero: vec![0; structure.guards.len()],
+        }
     }
 
     /// Whether a guard must be treated as zero at the start of this step.
@@ -54,9 +57,17 @@ impl Guarded {
         &'a self,
         structure: &'a Structure,
     ) -> impl Iterator<Item = (usize, usize, &'a Watch)> {
-        structure.units.iter().zip(&self.modes).enumerate().flat_map(|(unit, (modes, &mode))| {
-            modes[mode].iter().enumerate().map(move |(i, watch)| (unit, i, watch))
-        })
+        structure
+            .units
+            .iter()
+            .zip(&self.modes)
+            .enumerate()
+            .flat_map(|(unit, (modes, &mode))| {
+                modes[mode]
+                    .iter()
+                    .enumerate()
+                    .map(move |(i, watch)| (unit, i, watch))
+            })
     }
 
     /// The earliest switch in this step. `poly(guard, out)` writes the guard's power coefficients in
@@ -84,13 +95,22 @@ impl Guarded {
                 Start::Right => {
                     let descent = first_descent(power, table);
                     if descent.touches > 0 {
-                        touches = Touches { count: descent.touches, unit, theta: descent.touch_at };
+                        touches = Touches {
+                            count: descent.touches,
+                            unit,
+                            theta: descent.touch_at,
+                        };
                     }
                     descent.at
                 }
             };
             if let Some(theta) = theta.filter(|&t| best.is_none_or(|b| t < b.theta)) {
-                best = Some(Firing { theta, unit, watch: index, on_zero: on_zero || theta > 0.0 });
+                best = Some(Firing {
+                    theta,
+                    unit,
+                    watch: index,
+                    on_zero: on_zero || theta > 0.0,
+                });
             }
         }
         // A touch beyond the switch will be met again in the next step.

@@ -51,7 +51,11 @@ impl<T: Task> Lane<T> {
             period: 0,
             periods: leg.periods,
             evaluator: Evaluator::new(&leg.system),
-            dwell: structure.units.iter().map(|modes| vec![0.0; modes.len()]).collect(),
+            dwell: structure
+                .units
+                .iter()
+                .map(|modes| vec![0.0; modes.len()])
+                .collect(),
             recent_steps: 0,
             recent_switches: 0,
             steps: 0,
@@ -74,7 +78,10 @@ impl<T: Task> Lane<T> {
 
     /// The state that will be reported should the next step fail.
     pub(crate) fn not_finite(&self, bad: usize) -> Status {
-        Status::NotFinite { time: self.good_time, state: bad }
+        Status::NotFinite {
+            time: self.good_time,
+            state: bad,
+        }
     }
 
     pub(crate) fn touched(&mut self, touches: Touches, length: f64) {
@@ -103,7 +110,11 @@ impl<T: Task> Lane<T> {
         if let Some(bad) = x.iter().position(|v| !v.is_finite()) {
             return Next::Over(self.not_finite(bad));
         }
-        self.time = if period_ends { self.system.period } else { self.time + length };
+        self.time = if period_ends {
+            self.system.period
+        } else {
+            self.time + length
+        };
         for (dwell, &mode) in self.dwell.iter_mut().zip(&self.guarded.modes) {
             dwell[mode] += length;
         }
@@ -116,13 +127,23 @@ impl<T: Task> Lane<T> {
         self.good_time = self.total_time();
         if self.recent_switches > options.max_switches {
             let count = self.recent_switches;
-            return Next::Over(Status::Chattering { time: self.good_time, count });
+            return Next::Over(Status::Chattering {
+                time: self.good_time,
+                count,
+            });
         }
         if self.recent_steps > options.max_steps {
             let count = self.recent_steps;
-            return Next::Over(Status::TooManySteps { time: self.good_time, count });
+            return Next::Over(Status::TooManySteps {
+                time: self.good_time,
+                count,
+            });
         }
-        if period_ends { self.end_period(x) } else { Next::Go }
+        if period_ends {
+            self.end_period(x)
+        } else {
+            Next::Go
+        }
     }
 
     fn switch(&mut self, firing: Firing, x: &mut [f64]) {
@@ -132,7 +153,13 @@ impl<T: Task> Lane<T> {
         let watch = &structure.units[unit][from][firing.watch];
         let (period, time) = (self.period, self.time);
         let kind = SwitchKind::Mode { from, to: watch.to };
-        self.task.switch(&Switch { period, time, unit, kind, x });
+        self.task.switch(&Switch {
+            period,
+            time,
+            unit,
+            kind,
+            x,
+        });
         if !watch.resets.is_empty() {
             let nodes = self.evaluator.nodes(&self.guarded.modes, x);
             for &(state, node) in &watch.resets {
@@ -152,19 +179,30 @@ impl<T: Task> Lane<T> {
         self.period += 1;
         self.recent_steps = 0;
         self.recent_switches = 0;
-        let sample =
-            Sample { period: self.period, modes: &self.guarded.modes, x, dwell: &self.dwell };
+        let sample = Sample {
+            period: self.period,
+            modes: &self.guarded.modes,
+            x,
+            dwell: &self.dwell,
+        };
         let go_on = self.task.sample(&sample);
         self.dwell.iter_mut().for_each(|d| d.fill(0.0));
         self.good.copy_from_slice(x);
-        if go_on && !self.is_over() { Next::Go } else { Next::Over(Status::Completed) }
+        if go_on && !self.is_over() {
+            Next::Go
+        } else {
+            Next::Over(Status::Completed)
+        }
     }
 
     /// Reports the end of the leg; the task's next one, if any, and the task.
     pub(crate) fn finish(mut self, status: Status) -> (T, Option<Leg>) {
         let next = self.task.end(End {
             status,
-            point: Point { modes: self.guarded.modes, x: self.good },
+            point: Point {
+                modes: self.guarded.modes,
+                x: self.good,
+            },
             periods: self.period,
             steps: self.steps,
             switches: self.switches,

@@ -17,8 +17,11 @@ mod taylor;
 pub mod testing;
 
 pub use parallel::integrate_all;
-pub use record::{Recording, RecordedSwitch, record};
+pub use record::{RecordedSwitch, Recording, record};
 pub use run::{
-    End, IntegrateError, Leg, Method, Options, Sample, Status, Step, Switch, SwitchKind, Task, integrate,
+    End, IntegrateError, Leg, Method, Options, Sample, Status, Step, Switch, SwitchKind, Task,
+    integrate,
 };
-pub use system::{BuildError, Evaluator, Mode, Node, Point, System, SystemBuilder, Transition, Unit};
+pub use system::{
+    BuildError, Evaluator, Mode, Node, Point, System, SystemBuilder, Transition, Unit,
+};

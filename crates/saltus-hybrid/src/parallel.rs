@@ -28,12 +28,18 @@ pub fn integrate_all<T: Task>(
     let available = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = if threads == 0 { available() } else { threads };
     let results: Vec<_> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (1..threads.clamp(1, count.max(1))).map(|_| scope.spawn(work)).collect();
+        let workers: Vec<_> = (1..threads.clamp(1, count.max(1)))
+            .map(|_| scope.spawn(work))
+            .collect();
         let own = work();
         let join = |worker: std::thread::ScopedJoinHandle<'_, _>| {
-            worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+            worker
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
         };
-        std::iter::once(own).chain(workers.into_iter().map(join)).collect()
+        std::iter::once(own)
+            .chain(workers.into_iter().map(join))
+            .collect()
     });
     let mut ended = Vec::with_capacity(count);
     for result in results {

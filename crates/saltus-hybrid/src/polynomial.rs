@@ -61,7 +61,10 @@ impl BernsteinTable {
 
 /// p(x) and p'(x) by Horner's scheme.
 fn value_and_slope(power: &[f64], x: f64) -> (f64, f64) {
-    power.iter().rev().fold((0.0, 0.0), |(p, dp), &a| (p * x + a, dp * x + p))
+    power
+        .iter()
+        .rev()
+        .fold((0.0, 0.0), |(p, dp), &a| (p * x + a, dp * x + p))
 }
 
 /// Newton within a bracket, p(lo) > 0 > p(hi) or p(hi) = 0, halving where Newton leaves it.
@@ -78,7 +81,11 @@ fn refine(power: &[f64], mut lo: f64, mut hi: f64) -> f64 {
             hi = x;
         }
         let newton = x - p / dp;
-        let next = if newton >= lo && newton <= hi { newton } else { 0.5 * (lo + hi) };
+        let next = if newton >= lo && newton <= hi {
+            newton
+        } else {
+            0.5 * (lo + hi)
+        };
         if (next - x).abs() <= f64::EPSILON * x {
             return next;
         }
@@ -116,10 +123,21 @@ fn halve(piece: &Piece, degree: usize) -> (Piece, Piece) {
 pub(crate) fn first_descent(power: &[f64], table: &BernsteinTable) -> Descent {
     let degree = table.degree;
     debug_assert_eq!(power.len(), degree + 1);
-    let mut out = Descent { at: None, touches: 0, touch_at: 0.0 };
-    let mut root = Piece { lo: 0.0, hi: 1.0, b: [0.0; MAX_DEGREE + 1] };
+    let mut out = Descent {
+        at: None,
+        touches: 0,
+        touch_at: 0.0,
+    };
+    let mut root = Piece {
+        lo: 0.0,
+        hi: 1.0,
+        b: [0.0; MAX_DEGREE + 1],
+    };
     table.convert(power, &mut root.b[..=degree]);
-    let noise = NOISE * root.b[..=degree].iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let noise = NOISE
+        * root.b[..=degree]
+            .iter()
+            .fold(0.0, |m: f64, v| m.max(v.abs()));
     let mut stack = vec![root];
     while let Some(piece) = stack.pop() {
         let b = &piece.b[..=degree];
@@ -215,13 +233,17 @@ mod tests {
     #[test]
     fn finds_the_first_of_three_roots() {
         // positive, then down at .2, up at .5, down at .9
-        let at = first(&with_roots(&[0.2, 0.5, 0.9], 1.0)).at.expect("crosses");
+        let at = first(&with_roots(&[0.2, 0.5, 0.9], 1.0))
+            .at
+            .expect("crosses");
         assert!((at - 0.2).abs() < 1e-14, "{at}");
     }
 
     #[test]
     fn finds_a_shallow_dip_between_the_ends() {
-        let at = first(&with_roots(&[0.5, 0.5 + 1e-6], 1.0)).at.expect("dips");
+        let at = first(&with_roots(&[0.5, 0.5 + 1e-6], 1.0))
+            .at
+            .expect("dips");
         // a root pair 1e-6 apart moves by rounding/separation
         assert!((at - 0.5).abs() < 1e-9, "{at}");
     }

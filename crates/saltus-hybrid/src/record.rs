@@ -40,12 +40,19 @@ impl Task for Recorder {
         self.leg.take()
     }
     fn sample(&mut self, sample: &Sample<'_>) -> bool {
-        self.samples.push(Point { modes: sample.modes.to_vec(), x: sample.x.to_vec() });
+        self.samples.push(Point {
+            modes: sample.modes.to_vec(),
+            x: sample.x.to_vec(),
+        });
         true
     }
     fn switch(&mut self, switch: &Switch<'_>) {
         let time = switch.period as f64 * self.period + switch.time;
-        self.switches.push(RecordedSwitch { time, unit: switch.unit, kind: switch.kind });
+        self.switches.push(RecordedSwitch {
+            time,
+            unit: switch.unit,
+            kind: switch.kind,
+        });
     }
     fn end(&mut self, end: End) -> Option<Leg> {
         self.end = Some(end);
@@ -76,8 +83,14 @@ pub fn record(leg: &Leg, options: &Options) -> Result<Recording, IntegrateError>
         end: None,
     };
     let mut out = None;
-    integrate(options, [recorder], &AtomicBool::new(false), |task| out = Some(task))?;
+    integrate(options, [recorder], &AtomicBool::new(false), |task| {
+        out = Some(task)
+    })?;
     let task = out.ok_or(IntegrateError::Interrupted)?;
     let end = task.end.ok_or(IntegrateError::Interrupted)?;
-    Ok(Recording { samples: task.samples, switches: task.switches, end })
+    Ok(Recording {
+        samples: task.samples,
+        switches: task.switches,
+        end,
+    })
 }

@@ -57,10 +57,12 @@ fn run_leg<T: Task>(
         stepper.open(&structure, &x);
         stepper.step(&structure, lane.time, h, &mut x);
         stepper.close(&structure, &x);
-        let (mut firing, touches) = lane.guarded.next(&structure, &table, HERMITE, |watch, power| {
-            power.copy_from_slice(&stepper.guard(watch.guard_node(&structure), h));
-            true
-        });
+        let (mut firing, touches) =
+            lane.guarded
+                .next(&structure, &table, HERMITE, |watch, power| {
+                    power.copy_from_slice(&stepper.guard(watch.guard_node(&structure), h));
+                    true
+                });
         lane.touched(touches, h);
         if let Some(found) = firing {
             let watch = &structure.units[found.unit][lane.guarded.modes[found.unit]][found.watch];
@@ -72,9 +74,17 @@ fn run_leg<T: Task>(
                 stepper.interpolate(&structure, length, &mut dense);
                 let (period, time) = (lane.period, lane.time);
                 let modes = &lane.guarded.modes;
-                lane.task.step(&Step { period, time, length, modes, degree: HERMITE, power: &dense });
+                lane.task.step(&Step {
+                    period,
+                    time,
+                    length,
+                    modes,
+                    degree: HERMITE,
+                    power: &dense,
+                });
             }
-            lane.guarded.advanced(|guard| stepper.size(structure.guards[guard], length));
+            lane.guarded
+                .advanced(|guard| stepper.size(structure.guards[guard], length));
         }
         let on_grid = firing.is_none_or(|f| f.theta == 1.0);
         let period_ends = on_grid && slot == steps_per_period;
@@ -157,12 +167,20 @@ impl Stepper {
     fn guard(&self, node: usize, h: f64) -> [f64; HERMITE + 1] {
         let (g0, d0) = (self.start[2 * node], h * self.start[2 * node + 1]);
         let (g1, d1) = (self.end[2 * node], h * self.end[2 * node + 1]);
-        [g0, d0, 3.0 * (g1 - g0) - 2.0 * d0 - d1, 2.0 * (g0 - g1) + d0 + d1]
+        [
+            g0,
+            d0,
+            3.0 * (g1 - g0) - 2.0 * d0 - d1,
+            2.0 * (g0 - g1) + d0 + d1,
+        ]
     }
 
     /// A guard's value at the end of the step, and the size of what it is the sum of.
     fn size(&self, node: usize, h: f64) -> (f64, f64) {
-        let size = self.guard(node, h).iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+        let size = self
+            .guard(node, h)
+            .iter()
+            .fold(0.0, |m: f64, a| m.max(a.abs()));
         (self.end[2 * node], size)
     }
 

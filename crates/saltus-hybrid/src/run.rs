@@ -30,7 +30,10 @@ impl Method {
     /// (Jorba & Zou, section 3), and not below 8.
     pub fn taylor(tolerance: f64) -> Self {
         let order = (-0.5 * tolerance.ln()).ceil() as usize + 2;
-        Self::Taylor { tolerance, order: order.clamp(8, 24) }
+        Self::Taylor {
+            tolerance,
+            order: order.clamp(8, 24),
+        }
     }
 }
 
@@ -49,7 +52,11 @@ pub struct Options {
 impl Default for Options {
     /// Taylor at 1e-10: errors of an orbit stay below what any figure shows and near 1e-9.
     fn default() -> Self {
-        Self { method: Method::taylor(1e-10), max_switches: 100, max_steps: 1_000_000 }
+        Self {
+            method: Method::taylor(1e-10),
+            max_switches: 100,
+            max_steps: 1_000_000,
+        }
     }
 }
 
@@ -155,7 +162,9 @@ pub enum Status {
         state: usize,
     },
     /// The steps became so many that the period would never end.
-    #[error("{count} steps within one period by t = {time}: loosen the tolerance or look for a singularity")]
+    #[error(
+        "{count} steps within one period by t = {time}: loosen the tolerance or look for a singularity"
+    )]
     TooManySteps {
         /// Time since the start of the run.
         time: f64,
@@ -247,17 +256,31 @@ pub enum IntegrateError {
 
 impl Options {
     fn check(&self) -> Result<(), IntegrateError> {
-        let fail = |option, value, expected| Err(IntegrateError::Option { option, value, expected });
+        let fail = |option, value, expected| {
+            Err(IntegrateError::Option {
+                option,
+                value,
+                expected,
+            })
+        };
         match self.method {
-            Method::Taylor { tolerance, .. } if !(1e-16..=1e-2).contains(&tolerance) => {
-                fail("tolerance", tolerance, "a number from 1e-16 to 1e-2 is needed")
+            Method::Taylor { tolerance, .. } if !(1e-16..=1e-2).contains(&tolerance) => fail(
+                "tolerance",
+                tolerance,
+                "a number from 1e-16 to 1e-2 is needed",
+            ),
+            Method::Taylor { order, .. }
+                if !(4..=crate::polynomial::MAX_DEGREE).contains(&order) =>
+            {
+                fail(
+                    "order",
+                    order as f64,
+                    "a whole number from 4 to 30 is needed",
+                )
             }
-            Method::Taylor { order, .. } if !(4..=crate::polynomial::MAX_DEGREE).contains(&order) => {
-                fail("order", order as f64, "a whole number from 4 to 30 is needed")
-            }
-            Method::Rk4 { steps_per_period: 0 } => {
-                fail("steps_per_period", 0.0, "at least one step is needed")
-            }
+            Method::Rk4 {
+                steps_per_period: 0,
+            } => fail("steps_per_period", 0.0, "at least one step is needed"),
             _ if self.max_switches == 0 => fail("max_switches", 0.0, "at least one is needed"),
             _ if self.max_steps == 0 => fail("max_steps", 0.0, "at least one is needed"),
             _ => Ok(()),
@@ -282,13 +305,16 @@ pub fn integrate<T: Task>(
         Method::Taylor { tolerance, order } => {
             taylor::run(options, tolerance, order, &mut tasks, stop, &mut done)
         }
-        Method::Rk4 { steps_per_period } => {
-            tasks.try_for_each(|task| rk4::run(options, steps_per_period, task, stop).map(&mut done))
-        }
+        Method::Rk4 { steps_per_period } => tasks
+            .try_for_each(|task| rk4::run(options, steps_per_period, task, stop).map(&mut done)),
     }
 }
 
 /// `Err` if the stop flag is up.
 pub(crate) fn check_stop(stop: &AtomicBool) -> Result<(), IntegrateError> {
-    if stop.load(Ordering::Relaxed) { Err(IntegrateError::Interrupted) } else { Ok(()) }
+    if stop.load(Ordering::Relaxed) {
+        Err(IntegrateError::Interrupted)
+    } else {
+        Ok(())
+    }
 }

@@ -17,18 +17,30 @@ fn operation<A: Arith>(
     k: usize,
     index: usize,
 ) {
+    // Two sums in each case, so that consecutive multiply-adds do not wait for each other.
     let value = match &structure.ops[index] {
         Op::Linear { constant, terms } => {
-            let mut sum =
-                if k == 0 { arith.load(&coefficients[*constant]) } else { arith.splat(0.0) };
-            for &(c, node) in &structure.terms[terms.0..terms.1] {
-                let x = arith.load(&series[node * stride + k]);
-                sum = arith.mul_add(arith.load(&coefficients[c]), x, sum);
+            let nodes = &structure.terms[terms.0..terms.1];
+            let weights = &coefficients[*constant..=*constant + nodes.len()];
+            let term = |&c: &A::Cell, &node: &usize, sum| {
+                arith.mul_add(arith.load(&c), arith.load(&series[node * stride + k]), sum)
+            };
+            let (mut even, mut odd) = (arith.splat(0.0), arith.splat(0.0));
+            if k == 0 {
+                even = arith.load(&weights[0]);
             }
-            sum
+            let mut weights = weights[1..].chunks_exact(2);
+            let mut nodes = nodes.chunks_exact(2);
+            for (c, node) in (&mut weights).zip(&mut nodes) {
+                even = term(&c[0], &node[0], even);
+                odd = term(&c[1], &node[1], odd);
+            }
+            if let ([c], [node]) = (weights.remainder(), nodes.remainder()) {
+                even = term(c, node, even);
+            }
+            arith.add(even, odd)
         }
         Op::Dot { pairs } => {
-            // Two sums, so that consecutive multiply-adds do not wait for each other.
             let (mut even, mut odd) = (arith.splat(0.0), arith.splat(0.0));
             for &(a, b) in &structure.pairs[pairs.0..pairs.1] {
                 let a = &series[a * stride..a * stride + k + 1];

@@ -42,12 +42,21 @@ pub struct Transition {
 impl Transition {
     /// Leave for `to` when `guard` falls to zero.
     pub fn falling(guard: Node, to: Mode) -> Self {
-        Self { guard, sign: 1.0, to, resets: Vec::new(), vanishing: Vec::new() }
+        Self {
+            guard,
+            sign: 1.0,
+            to,
+            resets: Vec::new(),
+            vanishing: Vec::new(),
+        }
     }
 
     /// Leave for `to` when `guard` rises to zero.
     pub fn rising(guard: Node, to: Mode) -> Self {
-        Self { sign: -1.0, ..Self::falling(guard, to) }
+        Self {
+            sign: -1.0,
+            ..Self::falling(guard, to)
+        }
     }
 
     /// With `state` := `value` at the switch.
@@ -90,8 +99,12 @@ pub enum BuildError {
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Op {
-    /// node = c + sum of coefficient times node; `constant` is a coefficient index.
-    Linear { constant: usize, terms: (usize, usize) },
+    /// node = c + sum of coefficient times node; the constant's coefficient is followed by those of
+    /// the terms.
+    Linear {
+        constant: usize,
+        terms: (usize, usize),
+    },
     /// node = sum of products.
     Dot { pairs: (usize, usize) },
 }
@@ -120,7 +133,8 @@ pub(crate) struct Structure {
     /// States that take part in error control: all but the quadratures, which come last.
     pub(crate) controlled: usize,
     pub(crate) ops: Vec<Op>,
-    pub(crate) terms: Vec<(usize, usize)>,
+    /// Nodes of the terms of all linear operations.
+    pub(crate) terms: Vec<usize>,
     pub(crate) pairs: Vec<(usize, usize)>,
     /// Flat node index of each state's derivative.
     pub(crate) derivative: Vec<usize>,
@@ -193,7 +207,10 @@ impl System {
         if let Some((cos, sin)) = self.structure.drive {
             (state[cos], state[sin]) = (1.0, 0.0);
         }
-        Point { modes: modes.to_vec(), x: state }
+        Point {
+            modes: modes.to_vec(),
+            x: state,
+        }
     }
 
     /// Coefficients in force for these modes.
@@ -295,7 +312,7 @@ pub struct SystemBuilder {
 
 #[derive(Clone, Debug)]
 enum RawOp {
-    Linear { constant: usize, terms: Vec<(usize, Node)> },
+    Linear { constant: usize, terms: Vec<Node> },
     Dot(Vec<(Node, Node)>),
 }
 
@@ -344,7 +361,10 @@ impl SystemBuilder {
     /// constant + sum of coefficient times node.
     pub fn linear(&mut self, constant: f64, terms: &[(f64, Node)]) -> Node {
         let constant = self.coefficient(constant);
-        let terms = terms.iter().map(|&(c, node)| (self.coefficient(c), node)).collect();
+        for &(c, _) in terms {
+            self.coefficient(c);
+        }
+        let terms = terms.iter().map(|&(_, node)| node).collect();
         self.push(RawOp::Linear { constant, terms })
     }
 
@@ -356,7 +376,8 @@ impl SystemBuilder {
     /// `node` times a number that depends on the mode of `unit`, one for each mode.
     pub fn gate(&mut self, unit: Unit, by_mode: &[f64], node: Node) -> Node {
         let out = self.linear(0.0, &[(by_mode[0], node)]);
-        self.switched.push((self.coefficients.len() - 1, unit.0, by_mode.to_vec()));
+        self.switched
+            .push((self.coefficients.len() - 1, unit.0, by_mode.to_vec()));
         out
     }
 
@@ -396,12 +417,17 @@ impl SystemBuilder {
     /// # Errors
     /// [`BuildError`] names the part that is missing or wrong.
     pub fn build(self, period: f64) -> Result<System, BuildError> {
-        let period = self.drive.map_or(period, |omega| std::f64::consts::TAU / omega);
+        let period = self
+            .drive
+            .map_or(period, |omega| std::f64::consts::TAU / omega);
         if !(period > 0.0 && period.is_finite()) {
             return Err(BuildError::Period(period));
         }
         if let Some(index) = self.coefficients.iter().position(|c| !c.is_finite()) {
-            return Err(BuildError::NotFinite { index, value: self.coefficients[index] });
+            return Err(BuildError::NotFinite {
+                index,
+                value: self.coefficients[index],
+            });
         }
         let states = self.derivative.len();
         let total = self.ops.len();
@@ -413,19 +439,27 @@ impl SystemBuilder {
         let (mut ops, mut terms, mut pairs) = (Vec::new(), Vec::new(), Vec::new());
         for (i, op) in self.ops.iter().enumerate() {
             match op {
-                RawOp::Linear { constant, terms: list } => {
+                RawOp::Linear {
+                    constant,
+                    terms: list,
+                } => {
                     let start = terms.len();
-                    for &(c, node) in list {
-                        terms.push((c, flat(node, i)?));
+                    for &node in list {
+                        terms.push(flat(node, i)?);
                     }
-                    ops.push(Op::Linear { constant: *constant, terms: (start, terms.len()) });
+                    ops.push(Op::Linear {
+                        constant: *constant,
+                        terms: (start, terms.len()),
+                    });
                 }
                 RawOp::Dot(list) => {
                     let start = pairs.len();
                     for &(a, b) in list {
                         pairs.push((flat(a, i)?, flat(b, i)?));
                     }
-                    ops.push(Op::Dot { pairs: (start, pairs.len()) });
+                    ops.push(Op::Dot {
+                        pairs: (start, pairs.len()),
+                    });
                 }
             }
         }
@@ -462,7 +496,13 @@ impl SystemBuilder {
                         .iter()
                         .map(|&(state, value)| Ok((state, flat(value, total)?)))
                         .collect::<Result<Vec<_>, BuildError>>()?;
-                    watches.push(Watch { guard: own, sign: t.sign, to: t.to, resets, vanishing });
+                    watches.push(Watch {
+                        guard: own,
+                        sign: t.sign,
+                        to: t.to,
+                        resets,
+                        vanishing,
+                    });
                 }
                 out.push(watches);
             }
@@ -472,10 +512,15 @@ impl SystemBuilder {
         let mut switched = Vec::new();
         for (slot, unit, values) in &self.switched {
             if self.units[*unit].len() != values.len() {
-                return Err(BuildError::Undefined(format!("a gate of unit {unit} in some mode")));
+                return Err(BuildError::Undefined(format!(
+                    "a gate of unit {unit} in some mode"
+                )));
             }
             if let Some(&value) = values.iter().find(|v| !v.is_finite()) {
-                return Err(BuildError::NotFinite { index: *slot, value });
+                return Err(BuildError::NotFinite {
+                    index: *slot,
+                    value,
+                });
             }
             switched.push((*slot, *unit, tables.len()));
             tables.extend(values);
@@ -507,7 +552,7 @@ fn needed_by(
     nodes: &[usize],
     states: usize,
     ops: &[Op],
-    terms: &[(usize, usize)],
+    terms: &[usize],
     pairs: &[(usize, usize)],
 ) -> Vec<usize> {
     let mut needed = vec![false; ops.len()];
@@ -526,7 +571,7 @@ fn needed_by(
             }
         };
         match &ops[i] {
-            Op::Linear { terms: t, .. } => terms[t.0..t.1].iter().for_each(|&(_, n)| mark(n)),
+            Op::Linear { terms: t, .. } => terms[t.0..t.1].iter().for_each(|&n| mark(n)),
             Op::Dot { pairs: p } => pairs[p.0..p.1].iter().for_each(|&(a, b)| {
                 mark(a);
                 mark(b);

@@ -126,10 +126,12 @@ impl<T: Task> Ensemble<T> {
         mut leg: Option<Leg>,
     ) -> Result<Option<T>, IntegrateError> {
         while let Some(next) = leg {
-            let structure = Arc::clone(self.structure.get_or_insert_with(|| {
-                Arc::clone(&next.system.structure)
-            }));
-            if !Arc::ptr_eq(&structure, &next.system.structure) && *structure != *next.system.structure
+            let structure = Arc::clone(
+                self.structure
+                    .get_or_insert_with(|| Arc::clone(&next.system.structure)),
+            );
+            if !Arc::ptr_eq(&structure, &next.system.structure)
+                && *structure != *next.system.structure
             {
                 return Err(IntegrateError::Structure);
             }
@@ -139,9 +141,12 @@ impl<T: Task> Ensemble<T> {
                 continue;
             }
             let stride = self.order + 1;
-            self.coefficients.resize(next.system.coefficients.len(), Pack::default());
-            self.series.resize(structure.nodes() * stride, Pack::default());
-            self.bounds.resize(structure.guards.len(), [Pack::default(); 2]);
+            self.coefficients
+                .resize(next.system.coefficients.len(), Pack::default());
+            self.series
+                .resize(structure.nodes() * stride, Pack::default());
+            self.bounds
+                .resize(structure.guards.len(), [Pack::default(); 2]);
             self.x.resize(structure.states, 0.0);
             for (state, &value) in next.start.x.iter().enumerate() {
                 self.series[state * stride].0[slot] = value;
@@ -172,8 +177,16 @@ impl<T: Task> Ensemble<T> {
     /// Series of all lanes, their tails, and the step they allow.
     #[inline(always)]
     fn expand<S: Simd>(&mut self, arith: Wide<S>) {
-        let Some(structure) = self.structure.clone() else { return };
-        expand(arith, &structure, &self.coefficients, &mut self.series, self.order);
+        let Some(structure) = self.structure.clone() else {
+            return;
+        };
+        expand(
+            arith,
+            &structure,
+            &self.coefficients,
+            &mut self.series,
+            self.order,
+        );
         let stride = self.order + 1;
         let mut tail = [arith.splat(0.0); 3];
         for state in 0..structure.controlled {
@@ -195,7 +208,9 @@ impl<T: Task> Ensemble<T> {
     /// on the period's end at the latest.
     #[inline(always)]
     fn choose_length(&mut self, slot: usize) {
-        let Some(lane) = &self.lanes[slot] else { return };
+        let Some(lane) = &self.lanes[slot] else {
+            return;
+        };
         let [last, before, size] = self.tail.map(|t| t.0[slot]);
         let plan = &mut self.plans[slot];
         *plan = Plan::default();
@@ -242,7 +257,9 @@ impl<T: Task> Ensemble<T> {
 
     /// Looks for a switch in the lane's step and shortens the step to it.
     fn plan(&mut self, slot: usize) {
-        let (Some(lane), Some(structure)) = (&mut self.lanes[slot], &self.structure) else { return };
+        let (Some(lane), Some(structure)) = (&mut self.lanes[slot], &self.structure) else {
+            return;
+        };
         let plan = &mut self.plans[slot];
         if plan.failed {
             return;
@@ -252,13 +269,20 @@ impl<T: Task> Ensemble<T> {
         let guarded = &lane.guarded;
         let (firing, touches) = guarded.next(structure, &self.table, self.order, |watch, power| {
             let [low, high] = &bounds[watch.guard];
-            let safe = if watch.sign > 0.0 { low.0[slot] > 0.0 } else { high.0[slot] < 0.0 };
+            let safe = if watch.sign > 0.0 {
+                low.0[slot] > 0.0
+            } else {
+                high.0[slot] < 0.0
+            };
             if safe && !guarded.is_zero(watch.guard) {
                 return false;
             }
             let node = structure.guards[watch.guard];
             let mut scale = 1.0;
-            for (out, a) in power.iter_mut().zip(&series[node * stride..(node + 1) * stride]) {
+            for (out, a) in power
+                .iter_mut()
+                .zip(&series[node * stride..(node + 1) * stride])
+            {
                 *out = a.0[slot] * scale;
                 scale *= length;
             }
@@ -274,7 +298,8 @@ impl<T: Task> Ensemble<T> {
         if lane.wants_steps && plan.length > 0.0 {
             self.dense.clear();
             for state in 0..structure.states {
-                self.dense.extend((0..stride).map(|k| series[state * stride + k].0[slot]));
+                self.dense
+                    .extend((0..stride).map(|k| series[state * stride + k].0[slot]));
             }
             let step = Step {
                 period: lane.period,
@@ -305,7 +330,9 @@ impl<T: Task> Ensemble<T> {
     /// States at the end of each lane's step, by Horner's scheme, in place of the order-0 terms.
     #[inline(always)]
     fn advance<S: Simd>(&mut self, arith: Wide<S>) {
-        let Some(structure) = &self.structure else { return };
+        let Some(structure) = &self.structure else {
+            return;
+        };
         let stride = self.order + 1;
         let h = arith.load(&self.lengths);
         for state in 0..structure.states {
@@ -336,7 +363,13 @@ impl<T: Task> Ensemble<T> {
         }
         // Most steps neither switch nor end a period and leave the state as it is.
         let changes = plan.firing.is_some() || plan.period_ends;
-        let next = lane.accept(options, plan.length, plan.firing, plan.period_ends, &mut self.x);
+        let next = lane.accept(
+            options,
+            plan.length,
+            plan.firing,
+            plan.period_ends,
+            &mut self.x,
+        );
         if changes {
             for (state, &x) in self.x.iter().enumerate() {
                 self.series[state * stride].0[slot] = x;

@@ -32,7 +32,10 @@ pub fn forced_oscillator(zeta: f64, a: f64, omega: f64, wall: f64) -> System {
     let over = b.linear(-wall, &[(1.0, x)]);
     b.derivative(0, v);
     b.derivative(1, acceleration);
-    b.unit(vec![vec![Transition::rising(over, 1)], vec![Transition::falling(over, 0)]]);
+    b.unit(vec![
+        vec![Transition::rising(over, 1)],
+        vec![Transition::falling(over, 0)],
+    ]);
     finish(b.build(0.0))
 }
 
@@ -48,7 +51,13 @@ pub fn bilinear_oscillator(k: f64, interval: f64) -> System {
     let force = b.gate(side, &[-1.0, -k], x);
     b.derivative(0, v);
     b.derivative(1, force);
-    b.define_unit(side, vec![vec![Transition::rising(x, 1)], vec![Transition::falling(x, 0)]]);
+    b.define_unit(
+        side,
+        vec![
+            vec![Transition::rising(x, 1)],
+            vec![Transition::falling(x, 0)],
+        ],
+    );
     finish(b.build(interval))
 }
 
@@ -63,8 +72,13 @@ pub fn ramp_with_roots(roots: &[f64], interval: f64) -> System {
     let one = b.linear(1.0, &[]);
     b.derivative(0, one);
     let factors: Vec<_> = roots.iter().map(|&r| b.linear(-r, &[(1.0, y)])).collect();
-    let guard = factors[1..].iter().fold(factors[0], |product, &f| b.dot(&[(product, f)]));
-    b.unit(vec![vec![Transition::falling(guard, 1)], vec![Transition::rising(guard, 0)]]);
+    let guard = factors[1..]
+        .iter()
+        .fold(factors[0], |product, &f| b.dot(&[(product, f)]));
+    b.unit(vec![
+        vec![Transition::falling(guard, 1)],
+        vec![Transition::rising(guard, 0)],
+    ]);
     finish(b.build(interval))
 }
 

@@ -6,25 +6,48 @@
 use std::sync::atomic::AtomicBool;
 
 use saltus_hybrid::{
-    End, Leg, Method, Options, Point, Recording, Sample, Status, SwitchKind, System, SystemBuilder, Task,
-    Transition, integrate, record, testing,
+    End, Leg, Method, Options, Point, Recording, Sample, Status, SwitchKind, System, SystemBuilder,
+    Task, Transition, integrate, record, testing,
 };
 
-const METHODS: [Method; 2] =
-    [Method::Taylor { tolerance: 1e-12, order: 16 }, Method::Rk4 { steps_per_period: 1 }];
+const METHODS: [Method; 2] = [
+    Method::Taylor {
+        tolerance: 1e-12,
+        order: 16,
+    },
+    Method::Rk4 {
+        steps_per_period: 1,
+    },
+];
 
 fn options(method: Method) -> Options {
-    Options { method, ..Options::default() }
+    Options {
+        method,
+        ..Options::default()
+    }
 }
 
 fn run(system: &System, modes: &[usize], x: &[f64], periods: u64, method: Method) -> Recording {
     let start = system.point(modes, x);
-    record(&Leg { system: system.clone(), start, periods }, &options(method)).unwrap()
+    record(
+        &Leg {
+            system: system.clone(),
+            start,
+            periods,
+        },
+        &options(method),
+    )
+    .unwrap()
 }
 
 fn crossings(recording: &Recording) -> Vec<f64> {
     let crossing = |s: &&saltus_hybrid::RecordedSwitch| matches!(s.kind, SwitchKind::Mode { .. });
-    recording.switches.iter().filter(crossing).map(|s| s.time).collect()
+    recording
+        .switches
+        .iter()
+        .filter(crossing)
+        .map(|s| s.time)
+        .collect()
 }
 
 fn assert_times(found: &[f64], expected: &[f64], tolerance: f64) {
@@ -50,7 +73,11 @@ fn touch_and_leave_inside_one_step_is_found() {
     // Two crossings 0.002 apart in a step of 10: no sign change from end to end.
     let system = testing::ramp_with_roots(&[4.0, 4.002], 10.0);
     for method in METHODS {
-        assert_times(&crossings(&run(&system, &[0], &[0.0], 1, method)), &[4.0, 4.002], 1e-11);
+        assert_times(
+            &crossings(&run(&system, &[0], &[0.0], 1, method)),
+            &[4.0, 4.002],
+            1e-11,
+        );
     }
 }
 
@@ -72,9 +99,17 @@ fn a_zero_at_the_start_is_no_event_and_the_next_one_is() {
     let system = testing::ramp_with_roots(&[0.0, 3.0], 10.0);
     for method in METHODS {
         // y (y - 3) is zero at the start and negative after it: mode 1 lasts until 3.
-        assert_times(&crossings(&run(&system, &[1], &[0.0], 1, method)), &[3.0], 1e-14);
+        assert_times(
+            &crossings(&run(&system, &[1], &[0.0], 1, method)),
+            &[3.0],
+            1e-14,
+        );
         // Mode 0 wants it positive: it is left at once, not never.
-        assert_times(&crossings(&run(&system, &[0], &[0.0], 1, method)), &[0.0, 3.0], 1e-14);
+        assert_times(
+            &crossings(&run(&system, &[0], &[0.0], 1, method)),
+            &[0.0, 3.0],
+            1e-14,
+        );
     }
 }
 
@@ -83,7 +118,11 @@ fn a_guard_already_on_the_wrong_side_fires_at_once() {
     let system = testing::ramp_with_roots(&[5.0], 10.0);
     for method in METHODS {
         // y - 5 = -4 in mode 0, which lasts while it is positive.
-        assert_times(&crossings(&run(&system, &[0], &[1.0], 1, method)), &[0.0, 4.0], 1e-14);
+        assert_times(
+            &crossings(&run(&system, &[0], &[1.0], 1, method)),
+            &[0.0, 4.0],
+            1e-14,
+        );
     }
 }
 
@@ -139,7 +178,13 @@ fn two_units(at: [f64; 2]) -> System {
 #[test]
 fn two_units_at_the_same_instant_both_switch_in_either_order() {
     for method in METHODS {
-        for at in [[3.0, 3.0], [3.0, 3.0 + 1e-15], [3.0 + 1e-15, 3.0], [3.0, 7.0], [7.0, 3.0]] {
+        for at in [
+            [3.0, 3.0],
+            [3.0, 3.0 + 1e-15],
+            [3.0 + 1e-15, 3.0],
+            [3.0, 7.0],
+            [7.0, 3.0],
+        ] {
             let recording = run(&two_units(at), &[0, 0], &[0.0], 1, method);
             let mut expected = at.to_vec();
             expected.sort_by(f64::total_cmp);
@@ -167,9 +212,16 @@ fn a_bilinear_oscillator_keeps_its_period_and_speed() {
     let system = testing::bilinear_oscillator(k, std::f64::consts::PI * (1.0 + 1.0 / 3.0));
     let recording = run(&system, &[1], &[0.0, 1.0], 50, METHODS[0]);
     for sample in &recording.samples {
-        assert!(sample.x[0].abs() < 1e-10 && (sample.x[1] - 1.0).abs() < 1e-10, "{:?}", sample.x);
+        assert!(
+            sample.x[0].abs() < 1e-10 && (sample.x[1] - 1.0).abs() < 1e-10,
+            "{:?}",
+            sample.x
+        );
     }
-    assert_eq!(recording.end.switches, 99 + u64::from(recording.end.point.modes[0] == 1));
+    assert_eq!(
+        recording.end.switches,
+        99 + u64::from(recording.end.point.modes[0] == 1)
+    );
 }
 
 #[test]
@@ -200,7 +252,10 @@ fn a_singularity_ends_the_run_with_a_status_and_the_last_good_state() {
     for method in METHODS {
         let recording = run(&blow_up(), &[0], &[0.7], 40, method);
         assert!(
-            matches!(recording.end.status, Status::NotFinite { .. } | Status::TooManySteps { .. }),
+            matches!(
+                recording.end.status,
+                Status::NotFinite { .. } | Status::TooManySteps { .. }
+            ),
             "{:?}",
             recording.end.status
         );
@@ -220,7 +275,8 @@ impl Task for Watcher {
         self.leg.take()
     }
     fn sample(&mut self, sample: &Sample<'_>) -> bool {
-        self.samples.push(sample.x.iter().map(|v| v.to_bits()).collect());
+        self.samples
+            .push(sample.x.iter().map(|v| v.to_bits()).collect());
         true
     }
     fn end(&mut self, end: End) -> Option<Leg> {
@@ -242,7 +298,10 @@ fn watch_all(starts: &[f64]) -> Vec<Watcher> {
         status: None,
     });
     let mut out = Vec::new();
-    integrate(&options(METHODS[0]), tasks, &AtomicBool::new(false), |t| out.push(t)).unwrap();
+    integrate(&options(METHODS[0]), tasks, &AtomicBool::new(false), |t| {
+        out.push(t)
+    })
+    .unwrap();
     out.sort_by_key(|t| t.id);
     out
 }
@@ -264,7 +323,11 @@ fn lanes_do_not_disturb_each_other() {
     let mixed = watch_all(&starts);
     for (i, (a, b)) in good.iter().zip(&mixed).enumerate() {
         if [3, 4].contains(&i) {
-            assert!(matches!(b.status, Some(Status::NotFinite { .. })), "{i} {:?}", b.status);
+            assert!(
+                matches!(b.status, Some(Status::NotFinite { .. })),
+                "{i} {:?}",
+                b.status
+            );
         } else if i == 12 {
             assert!(b.status.is_some()); // huge but linear: it may well complete
         } else {
@@ -276,10 +339,23 @@ fn lanes_do_not_disturb_each_other() {
 #[test]
 fn a_raised_flag_stops_the_run() {
     let system = testing::forced_oscillator(0.05, 1.0, 0.8, 1.0);
-    let leg = Leg { start: system.point(&[0], &[0.0, 0.0]), system, periods: u64::MAX };
-    let task = Watcher { leg: Some(leg), id: 0, samples: Vec::new(), status: None };
+    let leg = Leg {
+        start: system.point(&[0], &[0.0, 0.0]),
+        system,
+        periods: u64::MAX,
+    };
+    let task = Watcher {
+        leg: Some(leg),
+        id: 0,
+        samples: Vec::new(),
+        status: None,
+    };
     for method in METHODS {
-        let task = Watcher { leg: task.leg.clone(), samples: Vec::new(), ..task };
+        let task = Watcher {
+            leg: task.leg.clone(),
+            samples: Vec::new(),
+            ..task
+        };
         let stopped = integrate(&options(method), [task], &AtomicBool::new(true), |_| {});
         assert_eq!(stopped, Err(saltus_hybrid::IntegrateError::Interrupted));
     }

@@ -3,7 +3,7 @@
 
 use std::time::Instant;
 
-use saltus::hybrid::{Method, Options, record, Leg};
+use saltus::hybrid::{Leg, Method, Options, record};
 use saltus::model::{PreparedPlate, Setup};
 use saltus::study::{Control, Pass, Sweep, sweep};
 
@@ -24,19 +24,54 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     // Accuracy: 20 periods at zeta 0.45, Omega 0.9, against a far tighter run.
     let precise = Setup::dias_del_prado(0.45, 0.9).model()?;
-    let leg = Leg { system: precise.system().clone(), start: precise.start(3.0, 2.0), periods: 20 };
-    let run = |method| record(&leg, &Options { method, ..Options::default() });
-    let reference = run(Method::Taylor { tolerance: 1e-16, order: 24 })?;
-    let rk4 = run(Method::Rk4 { steps_per_period: 20_000 })?;
+    let leg = Leg {
+        system: precise.system().clone(),
+        start: precise.start(3.0, 2.0),
+        periods: 20,
+    };
+    let run = |method| {
+        record(
+            &leg,
+            &Options {
+                method,
+                ..Options::default()
+            },
+        )
+    };
+    let reference = run(Method::Taylor {
+        tolerance: 1e-16,
+        order: 24,
+    })?;
+    let rk4 = run(Method::Rk4 {
+        steps_per_period: 20_000,
+    })?;
     let error = |x: &[f64]| {
-        x.iter().zip(&reference.end.point.x).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()))
+        x.iter()
+            .zip(&reference.end.point.x)
+            .fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()))
     };
     eprintln!("RK4, 20000 steps: {:.1e}", error(&rk4.end.point.x));
-    for (tolerance, order) in [(1e-6, 10), (1e-7, 12), (1e-8, 12), (1e-9, 12), (1e-9, 14), (1e-10, 14), (1e-10, 16), (1e-12, 16)] {
+    for (tolerance, order) in [
+        (1e-6, 10),
+        (1e-7, 12),
+        (1e-8, 12),
+        (1e-9, 12),
+        (1e-9, 14),
+        (1e-10, 14),
+        (1e-10, 16),
+        (1e-12, 16),
+    ] {
         let method = Method::Taylor { tolerance, order };
         let accuracy = error(&run(method)?.end.point.x);
-        let options = Options { method, ..Options::default() };
-        let control = Control { options, threads: 1, ..Control::default() };
+        let options = Options {
+            method,
+            ..Options::default()
+        };
+        let control = Control {
+            options,
+            threads: 1,
+            ..Control::default()
+        };
         let clock = Instant::now();
         let rows = sweep(&diagram, at, &control)?;
         let seconds = clock.elapsed().as_secs_f64();

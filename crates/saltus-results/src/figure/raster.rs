@@ -38,7 +38,7 @@ pub(crate) fn png(drawing: Drawing, scale: f32) -> Result<Vec<u8>, ResultsError>
     encode(&image)
 }
 
-fn refused(reason: impl ToString) -> ResultsError {
+fn refused(reason: &impl ToString) -> ResultsError {
     ResultsError::Png {
         reason: reason.to_string(),
     }
@@ -49,19 +49,21 @@ fn pixmap(scene: &Scene, scale: f32) -> Result<Pixmap, ResultsError> {
     let bytes = RasterBackend::new()
         .with_scale(scale)
         .render_scene(scene)
-        .map_err(refused)?;
+        .map_err(|error| refused(&error))?;
     let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
         .read_info()
-        .map_err(refused)?;
+        .map_err(|error| refused(&error))?;
     let size = reader
         .output_buffer_size()
-        .ok_or_else(|| refused("the image is too large"))?;
+        .ok_or_else(|| refused(&"the image is too large"))?;
     let mut pixels = vec![0; size];
-    let info = reader.next_frame(&mut pixels).map_err(refused)?;
+    let info = reader
+        .next_frame(&mut pixels)
+        .map_err(|error| refused(&error))?;
     let size =
-        IntSize::from_wh(info.width, info.height).ok_or_else(|| refused("the image is empty"))?;
+        IntSize::from_wh(info.width, info.height).ok_or_else(|| refused(&"the image is empty"))?;
     // kuva writes four channels on an opaque ground, which is tiny-skia's own format.
-    Pixmap::from_vec(pixels, size).ok_or_else(|| refused("the image is not of four channels"))
+    Pixmap::from_vec(pixels, size).ok_or_else(|| refused(&"the image is not of four channels"))
 }
 
 /// A label to be read from below to above, by its anchor on the sheet.
@@ -260,8 +262,10 @@ fn encode(image: &Pixmap) -> Result<Vec<u8>, ResultsError> {
     let mut encoder = png::Encoder::new(&mut bytes, image.width(), image.height());
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
-    let mut writer = encoder.write_header().map_err(refused)?;
-    writer.write_image_data(&rgb).map_err(refused)?;
-    writer.finish().map_err(refused)?;
+    let mut writer = encoder.write_header().map_err(|error| refused(&error))?;
+    writer
+        .write_image_data(&rgb)
+        .map_err(|error| refused(&error))?;
+    writer.finish().map_err(|error| refused(&error))?;
     Ok(bytes)
 }

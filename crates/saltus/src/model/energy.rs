@@ -71,13 +71,24 @@ impl EnergyLedger {
         motion: &BaseMotion<'_>,
     ) -> Self {
         let e = &plate.elasticity;
-        let &BaseMotion { loads, damping, amplitude, cos, sin } = motion;
+        let &BaseMotion {
+            loads,
+            damping,
+            amplitude,
+            cos,
+            sin,
+        } = motion;
         let drive = b.linear(0.0, &[(1.0, cos), (damping, sin)]);
-        let speed: Vec<(f64, Node)> =
-            loads.iter().enumerate().map(|(j, &load)| (load, b.state(layout.dr(j)))).collect();
+        let speed: Vec<(f64, Node)> = loads
+            .iter()
+            .enumerate()
+            .map(|(j, &load)| (load, b.state(layout.dr(j))))
+            .collect();
         let speed = b.linear(0.0, &speed);
-        let push: Vec<(f64, Node)> =
-            legs.iter().map(|leg| (-leg.mass_ratio * amplitude, leg.gated)).collect();
+        let push: Vec<(f64, Node)> = legs
+            .iter()
+            .map(|leg| (-leg.mass_ratio * amplitude, leg.gated))
+            .collect();
         let push = b.linear(0.0, &push);
         let base = b.dot(&[(drive, speed), (push, sin)]);
 
@@ -101,7 +112,10 @@ impl EnergyLedger {
         let mut damped = Vec::new();
         for leg in legs {
             let rate = b.gate(leg.unit, on_floor(law), leg.rate);
-            damped.push((b.linear(0.0, &[(leg.mass_ratio * leg.damping, rate)]), leg.rate));
+            damped.push((
+                b.linear(0.0, &[(leg.mass_ratio * leg.damping, rate)]),
+                leg.rate,
+            ));
         }
         let damped = b.dot(&damped);
         Self {
@@ -125,12 +139,19 @@ impl Model {
             (0..layout.in_plane).map(|i| h * x[layout.p(i)]).collect()
         };
         let kinetic = |mass: f64, v: f64| 0.5 * mass * (rate * v).powi(2);
-        let transverse: f64 =
-            (0..layout.transverse).map(|j| kinetic(e.transverse_mass, x[layout.dr(j)])).sum();
-        let in_plane: f64 =
-            (0..layout.in_plane).map(|i| kinetic(e.in_plane_mass[i], x[layout.dp(i)])).sum();
-        let bodies: f64 =
-            self.scales.jumpers.iter().enumerate().map(|(i, s)| kinetic(s.mass, x[layout.dz(i)])).sum();
+        let transverse: f64 = (0..layout.transverse)
+            .map(|j| kinetic(e.transverse_mass, x[layout.dr(j)]))
+            .sum();
+        let in_plane: f64 = (0..layout.in_plane)
+            .map(|i| kinetic(e.in_plane_mass[i], x[layout.dp(i)]))
+            .sum();
+        let bodies: f64 = self
+            .scales
+            .jumpers
+            .iter()
+            .enumerate()
+            .map(|(i, s)| kinetic(s.mass, x[layout.dz(i)]))
+            .sum();
         e.strain_energy(&p, &r) + transverse + in_plane + bodies
     }
 
@@ -146,7 +167,11 @@ impl Model {
         };
         let gravity: f64 = self.scales.jumpers.iter().enumerate().map(fall).sum();
         let stored = self.stored_energy(to) - self.stored_energy(from);
-        let (base, plate, legs) = (integral(ledger.base), integral(ledger.plate), integral(ledger.legs));
+        let (base, plate, legs) = (
+            integral(ledger.base),
+            integral(ledger.plate),
+            integral(ledger.legs),
+        );
         Some(EnergyBalance {
             base,
             gravity,

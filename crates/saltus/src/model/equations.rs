@@ -43,7 +43,11 @@ pub(crate) const LIFTED: Mode = 2;
 impl Contact {
     /// What a mode of the engine means.
     pub fn of(mode: Mode) -> Self {
-        if mode == STANCE { Self::Stance } else { Self::Flight }
+        if mode == STANCE {
+            Self::Stance
+        } else {
+            Self::Flight
+        }
     }
 }
 
@@ -83,23 +87,44 @@ pub(crate) fn build(
         .jumpers
         .iter()
         .enumerate()
-        .map(|(i, jumper)| leg(&mut b, setup, scales, layout, i, jumper, amplitude, (cos, sin)))
+        .map(|(i, jumper)| {
+            leg(
+                &mut b,
+                setup,
+                scales,
+                layout,
+                i,
+                jumper,
+                amplitude,
+                (cos, sin),
+            )
+        })
         .collect();
 
     // Inertial load of the base: (G_j/M) a (cos tau + (c/Omega) sin tau).
     let e = &plate.elasticity;
     let damping = e.damping / scales.omega;
-    let loads: Vec<f64> = e.base_load.iter().map(|g| g / e.transverse_mass * amplitude).collect();
+    let loads: Vec<f64> = e
+        .base_load
+        .iter()
+        .map(|g| g / e.transverse_mass * amplitude)
+        .collect();
     let elastic = elastic_forces(&mut b, setup, plate, scales, layout);
     for j in 0..layout.transverse {
         let mut terms = vec![
-            (-e.bending[j] / (e.transverse_mass * scales.omega.powi(2)), b.state(layout.r(j))),
+            (
+                -e.bending[j] / (e.transverse_mass * scales.omega.powi(2)),
+                b.state(layout.r(j)),
+            ),
             (-damping, b.state(layout.dr(j))),
             (loads[j], cos),
             (loads[j] * damping, sin),
         ];
         terms.extend(elastic.transverse[j].map(|node| (-1.0, node)));
-        terms.extend(legs.iter().map(|leg| (-leg.mass_ratio * leg.psi[j], leg.gated)));
+        terms.extend(
+            legs.iter()
+                .map(|leg| (-leg.mass_ratio * leg.psi[j], leg.gated)),
+        );
         let acceleration = b.linear(0.0, &terms);
         b.derivative(layout.r(j), b.state(layout.dr(j)));
         b.derivative(layout.dr(j), acceleration);
@@ -112,7 +137,13 @@ pub(crate) fn build(
         b.derivative(layout.dp(i), acceleration);
     }
     let ledger = with_energy.then(|| {
-        let base = BaseMotion { loads: &loads, damping, amplitude, cos, sin };
+        let base = BaseMotion {
+            loads: &loads,
+            damping,
+            amplitude,
+            cos,
+            sin,
+        };
         EnergyLedger::declare(&mut b, plate, layout, setup.contact, &legs, &base)
     });
     Ok(Equations {
@@ -143,7 +174,12 @@ fn elastic_forces(
     let per_mass = 1.0 / (e.transverse_mass * scales.omega.powi(2));
     // All products R_j R_k, j <= k.
     let squares: HashMap<(usize, usize), Node> = pairs(n)
-        .map(|(j, k)| ((j, k), b.dot(&[(b.state(layout.r(j)), b.state(layout.r(k)))])))
+        .map(|(j, k)| {
+            (
+                (j, k),
+                b.dot(&[(b.state(layout.r(j)), b.state(layout.r(k)))]),
+            )
+        })
         .collect();
     // T_jk as sums over R_l R_m and P_i.
     let mut tension: HashMap<(usize, usize), Vec<(f64, Node)>> = HashMap::new();
@@ -154,14 +190,20 @@ fn elastic_forces(
     for term in quartic {
         for ((j, k), (l, m), weight) in splits(term) {
             let value = 4.0 * weight * term.value * h * h * per_mass;
-            tension.entry((j, k)).or_default().push((value, squares[&(l, m)]));
+            tension
+                .entry((j, k))
+                .or_default()
+                .push((value, squares[&(l, m)]));
         }
     }
     let mut in_plane = vec![Vec::new(); layout.in_plane];
     if setup.inertia == Inertia::Full {
         for term in &e.coupling {
             let p = b.state(layout.p(term.i));
-            tension.entry((term.j, term.k)).or_default().push((2.0 * term.value * h * per_mass, p));
+            tension
+                .entry((term.j, term.k))
+                .or_default()
+                .push((2.0 * term.value * h * per_mass, p));
             let inertia = e.in_plane_mass[term.i] * scales.omega.powi(2);
             let value = -term.multiplicity() * term.value * h / inertia;
             in_plane[term.i].push((value, squares[&(term.j, term.k)]));
@@ -187,7 +229,10 @@ fn elastic_forces(
             (!products.is_empty()).then(|| b.dot(&products))
         })
         .collect();
-    Elastic { transverse, in_plane }
+    Elastic {
+        transverse,
+        in_plane,
+    }
 }
 
 /// j <= k < n, in a fixed order.
@@ -228,11 +273,17 @@ fn leg(
     let damping = jumper.damping() / (jumper.mass * omega);
     let (z, dz) = (b.state(layout.z(index)), b.state(layout.dz(index)));
 
-    let mut gap: Vec<(f64, Node)> =
-        psi.iter().enumerate().map(|(j, &psi)| (psi, b.state(layout.r(j)))).collect();
+    let mut gap: Vec<(f64, Node)> = psi
+        .iter()
+        .enumerate()
+        .map(|(j, &psi)| (psi, b.state(layout.r(j))))
+        .collect();
     gap.extend([(amplitude, cos), (-1.0, z)]);
-    let mut rate: Vec<(f64, Node)> =
-        psi.iter().enumerate().map(|(j, &psi)| (psi, b.state(layout.dr(j)))).collect();
+    let mut rate: Vec<(f64, Node)> = psi
+        .iter()
+        .enumerate()
+        .map(|(j, &psi)| (psi, b.state(layout.dr(j))))
+        .collect();
     rate.extend([(-amplitude, sin), (-1.0, dz)]);
     let gap = b.linear(0.0, &gap);
     let rate = b.linear(0.0, &rate);
@@ -248,18 +299,32 @@ fn leg(
     let state = layout.leg(index);
     let modes = match setup.contact {
         ContactLaw::ReactionForce => {
-            vec![vec![Transition::falling(force, FLIGHT)], vec![Transition::rising(force, STANCE)]]
+            vec![
+                vec![Transition::falling(force, FLIGHT)],
+                vec![Transition::rising(force, STANCE)],
+            ]
         }
         ContactLaw::Gap => vec![
             vec![Transition::falling(force, LIFTED)],
             vec![Transition::rising(gap, STANCE)],
-            vec![Transition::rising(force, STANCE), Transition::falling(gap, FLIGHT)],
+            vec![
+                Transition::rising(force, STANCE),
+                Transition::falling(gap, FLIGHT),
+            ],
         ],
         ContactLaw::RelaxingLeg => relaxing(b, unit, state, gap, rate, force, stiffness / damping),
     };
     b.define_unit(unit, modes);
     let mass_ratio = jumper.mass / setup.plate.modal_mass();
-    Leg { force, gated, unit, damping, rate, psi, mass_ratio }
+    Leg {
+        force,
+        gated,
+        unit,
+        damping,
+        rate,
+        psi,
+        mass_ratio,
+    }
 }
 
 /// 1 in stance and 0 in flight, for each mode of a jumper's unit.
@@ -288,7 +353,11 @@ fn relaxing(
     let reach = b.linear(0.0, &[(1.0, gap), (-1.0, s)]);
     // At take-off d = s and, because k s + c d' = 0 there, d' = s' too: a double zero.
     vec![
-        vec![Transition::falling(force, FLIGHT).reset(state, gap).vanishing(reach, 2)],
+        vec![
+            Transition::falling(force, FLIGHT)
+                .reset(state, gap)
+                .vanishing(reach, 2),
+        ],
         vec![Transition::rising(reach, STANCE).reset(state, gap)],
     ]
 }
@@ -304,12 +373,25 @@ mod tests {
     #[test]
     fn splits_cover_the_full_quartic_sum() {
         // For indices jklm all different: 6 outer pairs, each with two orders inside.
-        let term = |j, k, l, m| QuarticTerm { j, k, l, m, value: 1.0 };
-        for (term, outer) in [(term(0, 1, 2, 3), 6), (term(0, 0, 0, 0), 1), (term(0, 0, 1, 1), 3)] {
+        let term = |j, k, l, m| QuarticTerm {
+            j,
+            k,
+            l,
+            m,
+            value: 1.0,
+        };
+        for (term, outer) in [
+            (term(0, 1, 2, 3), 6),
+            (term(0, 0, 0, 0), 1),
+            (term(0, 0, 1, 1), 3),
+        ] {
             let parts = splits(&term);
             assert_eq!(parts.len(), outer);
             // sum over ordered outer pairs of the inner weights = number of orders of the quadruple
-            let total: f64 = parts.iter().map(|(o, _, w)| w * if o.0 == o.1 { 1.0 } else { 2.0 }).sum();
+            let total: f64 = parts
+                .iter()
+                .map(|(o, _, w)| w * if o.0 == o.1 { 1.0 } else { 2.0 })
+                .sum();
             assert_eq!(total, term.multiplicity());
         }
     }

@@ -117,7 +117,11 @@ impl PreparedPlate {
     pub fn new(plate: &Plate) -> Result<Arc<Self>, PhysicsError> {
         let elasticity = plate.elasticity()?;
         let condensed = elasticity.condensed_quartic()?;
-        Ok(Arc::new(Self { plate: plate.clone(), elasticity, condensed }))
+        Ok(Arc::new(Self {
+            plate: plate.clone(),
+            elasticity,
+            condensed,
+        }))
     }
 }
 
@@ -180,7 +184,10 @@ impl Setup {
         let plate = Plate::dias_del_prado();
         let jumper = Jumper::dias_del_prado(plate.length, plate.width);
         Self {
-            jumpers: vec![Jumper { damping_ratio, ..jumper }],
+            jumpers: vec![Jumper {
+                damping_ratio,
+                ..jumper
+            }],
             contact: ContactLaw::ReactionForce,
             base: Base {
                 amplitude: 0.13 * plate.thickness,
@@ -231,7 +238,10 @@ impl Setup {
             jumper.check(index)?;
             jumper.check_position(index, &self.plate)?;
             if jumper.damping_ratio == 0.0 && self.contact != ContactLaw::ReactionForce {
-                return Err(ModelError::Undamped { index, law: self.contact.name() });
+                return Err(ModelError::Undamped {
+                    index,
+                    law: self.contact.name(),
+                });
             }
         }
         Ok(())
@@ -239,7 +249,11 @@ impl Setup {
 }
 
 impl Model {
-    fn new(setup: &Setup, plate: &Arc<PreparedPlate>, with_energy: bool) -> Result<Self, ModelError> {
+    fn new(
+        setup: &Setup,
+        plate: &Arc<PreparedPlate>,
+        with_energy: bool,
+    ) -> Result<Self, ModelError> {
         setup.check()?;
         let omega = setup.base.omega(&setup.plate, &setup.jumpers)?;
         let scales = Scales::new(setup, omega);
@@ -300,7 +314,10 @@ impl Model {
             Inertia::Full => plate.in_plane_frequencies_hz()?,
             Inertia::Condensed => Vec::new(),
         };
-        let highest = occupied.iter().chain(&in_plane).fold(0.0, |m: f64, f| m.max(*f));
+        let highest = occupied
+            .iter()
+            .chain(&in_plane)
+            .fold(0.0, |m: f64, f| m.max(*f));
         Ok(std::f64::consts::TAU * highest)
     }
 
@@ -310,7 +327,10 @@ impl Model {
     /// # Errors
     /// [`ModelError::UnstableStep`] says how many steps are needed.
     pub fn check_step(&self, options: &Options) -> Result<(), ModelError> {
-        let saltus_hybrid::Method::Rk4 { steps_per_period: steps } = options.method else {
+        let saltus_hybrid::Method::Rk4 {
+            steps_per_period: steps,
+        } = options.method
+        else {
             return Ok(());
         };
         let highest = self.highest_omega()?;
@@ -321,6 +341,11 @@ impl Model {
         }
         let needed = (period / limit).ceil().min(f64::from(u32::MAX)) as u32;
         let hz = highest / std::f64::consts::TAU;
-        Err(ModelError::UnstableStep { steps, limit, hz, needed })
+        Err(ModelError::UnstableStep {
+            steps,
+            limit,
+            hz,
+            needed,
+        })
     }
 }

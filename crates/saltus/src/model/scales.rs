@@ -37,7 +37,11 @@ impl Scales {
                 mass: jumper.mass,
             }
         });
-        Self { length: setup.plate.thickness, omega, jumpers: jumpers.collect() }
+        Self {
+            length: setup.plate.thickness,
+            omega,
+            jumpers: jumpers.collect(),
+        }
     }
 
     /// Forcing period T (s).

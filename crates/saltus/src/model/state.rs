@@ -2,8 +2,8 @@
 
 use saltus_hybrid::{Evaluator, Mode, Point};
 
-use super::equations::{Contact, FLIGHT, LIFTED, STANCE};
 use super::Model;
+use super::equations::{Contact, FLIGHT, LIFTED, STANCE};
 use crate::physics::ContactLaw;
 
 /// One point of the stroboscopic section (cos(Omega t) = 1) in the paper's units.
@@ -81,7 +81,11 @@ impl Model {
     fn floor(&self, i: usize, x: &[f64]) -> f64 {
         let jumper = &self.setup.jumpers[i];
         let psi = self.setup.plate.mode_shape(jumper.x, jumper.y);
-        let plate: f64 = psi.iter().enumerate().map(|(j, psi)| psi * x[self.layout.r(j)]).sum();
+        let plate: f64 = psi
+            .iter()
+            .enumerate()
+            .map(|(j, psi)| psi * x[self.layout.r(j)])
+            .sum();
         let cos = x[self.layout.len()];
         plate + self.setup.base.amplitude / self.scales.length * cos
     }
@@ -119,8 +123,15 @@ impl Model {
             }
         });
         let prf = prf.collect();
-        let floor = (0..self.layout.jumpers).map(|i| self.floor(i, x) * self.scales.length).collect();
-        Observation { z: section.z, v: section.v, prf, floor }
+        let floor = (0..self.layout.jumpers)
+            .map(|i| self.floor(i, x) * self.scales.length)
+            .collect();
+        Observation {
+            z: section.z,
+            v: section.v,
+            prf,
+            floor,
+        }
     }
 
     /// This state of `other` in the units of this model: positions and velocities stay what they

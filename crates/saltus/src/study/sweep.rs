@@ -46,7 +46,9 @@ impl Sweep {
     /// `count` values from `from` to `to`, both included.
     pub fn linspace(from: f64, to: f64, count: usize) -> Vec<f64> {
         let last = count.saturating_sub(1).max(1) as f64;
-        (0..count).map(|i| from + (to - from) * i as f64 / last).collect()
+        (0..count)
+            .map(|i| from + (to - from) * i as f64 / last)
+            .collect()
     }
 }
 
@@ -128,7 +130,10 @@ where
     for rows in &mut rows {
         rows.sort_by_key(|(index, row)| (row.pass, *index));
     }
-    Ok(rows.into_iter().map(|rows| rows.into_iter().map(|(_, row)| row).collect()).collect())
+    Ok(rows
+        .into_iter()
+        .map(|rows| rows.into_iter().map(|(_, row)| row).collect())
+        .collect())
 }
 
 /// One pass with carried state, or one restart.
@@ -193,7 +198,12 @@ where
                         periods: self.transient + self.record,
                     };
                     let stance = vec![0.0; bodies];
-                    self.current = Some(Current { index, model, row, stance });
+                    self.current = Some(Current {
+                        index,
+                        model,
+                        row,
+                        stance,
+                    });
                     return Some(leg);
                 }
             }
@@ -212,20 +222,33 @@ where
 
     fn sample(&mut self, sample: &Sample<'_>) -> bool {
         self.control.count_period();
-        if let Some(current) = self.current.as_mut().filter(|_| sample.period > self.transient) {
+        if let Some(current) = self
+            .current
+            .as_mut()
+            .filter(|_| sample.period > self.transient)
+        {
             for body in 0..current.stance.len() {
                 current.row.z[body].push(current.model.z(body, sample.x));
                 current.row.v[body].push(current.model.v(body, sample.x));
                 let on_floor = |&(mode, _): &(usize, &f64)| Contact::of(mode) == Contact::Stance;
-                current.stance[body] +=
-                    sample.dwell[body].iter().enumerate().filter(on_floor).map(|(_, t)| t).sum::<f64>();
+                current.stance[body] += sample.dwell[body]
+                    .iter()
+                    .enumerate()
+                    .filter(on_floor)
+                    .map(|(_, t)| t)
+                    .sum::<f64>();
             }
         }
         true
     }
 
     fn end(&mut self, end: End) -> Option<Leg> {
-        let Current { index, model, mut row, stance } = self.current.take()?;
+        let Current {
+            index,
+            model,
+            mut row,
+            stance,
+        } = self.current.take()?;
         let kept = end.periods.saturating_sub(self.transient) as f64 * model.system().period();
         row.contact_ratio = stance.iter().map(|time| time / kept).collect();
         row.status = Ok(end.status);

@@ -63,7 +63,11 @@ pub fn simulate(
         model,
         control,
         evaluator: model.evaluator(),
-        leg: Some(Leg { system: model.system().clone(), start: start.clone(), periods }),
+        leg: Some(Leg {
+            system: model.system().clone(),
+            start: start.clone(),
+            periods,
+        }),
         from: periods.saturating_sub(history),
         points,
         next: 0,
@@ -85,8 +89,12 @@ pub fn simulate(
         },
     };
     let mut out = None;
-    integrate(&control.options, [task], &control.stop, |task| out = Some(task.out))?;
-    out.ok_or(StudyError::Integrate(saltus_hybrid::IntegrateError::Interrupted))
+    integrate(&control.options, [task], &control.stop, |task| {
+        out = Some(task.out)
+    })?;
+    out.ok_or(StudyError::Integrate(
+        saltus_hybrid::IntegrateError::Interrupted,
+    ))
 }
 
 struct Recorder<'a> {
@@ -118,14 +126,29 @@ impl Task for Recorder<'_> {
     fn sample(&mut self, sample: &Sample<'_>) -> bool {
         self.control.count_period();
         let period = self.model.system().period();
-        self.out.section.push(self.model.section(sample.modes, sample.x));
+        self.out
+            .section
+            .push(self.model.section(sample.modes, sample.x));
         let stance = |dwell: &Vec<f64>| {
             let on_floor = |&(mode, _): &(usize, &f64)| Contact::of(mode) == Contact::Stance;
-            dwell.iter().enumerate().filter(on_floor).map(|(_, t)| t).sum::<f64>() / period
+            dwell
+                .iter()
+                .enumerate()
+                .filter(on_floor)
+                .map(|(_, t)| t)
+                .sum::<f64>()
+                / period
         };
-        self.out.contact_ratio.push(sample.dwell.iter().map(stance).collect());
-        let point = Point { modes: sample.modes.to_vec(), x: sample.x.to_vec() };
-        self.out.energy.extend(self.model.energy_balance(&self.before, &point));
+        self.out
+            .contact_ratio
+            .push(sample.dwell.iter().map(stance).collect());
+        let point = Point {
+            modes: sample.modes.to_vec(),
+            x: sample.x.to_vec(),
+        };
+        self.out
+            .energy
+            .extend(self.model.energy_balance(&self.before, &point));
         self.before = point;
         self.next = 0;
         true
@@ -143,7 +166,11 @@ impl Task for Recorder<'_> {
             }
         };
         let time = self.seconds(switch.period, switch.time);
-        self.out.switches.push(TrajectorySwitch { time, jumper: switch.unit, into });
+        self.out.switches.push(TrajectorySwitch {
+            time,
+            jumper: switch.unit,
+            into,
+        });
     }
 
     fn wants_steps(&self) -> bool {
