@@ -332,7 +332,9 @@ fn data_cell(cell: &str, numeric: bool) -> String {
 
 fn badge(verdict: Verdict) -> String {
     let (class, sign, words) = (verdict.class(), verdict.sign(), verdict.words());
-    format!("<span class=\"badge {class}\"><span aria-hidden=\"true\">{sign}</span> {words}</span>")
+    format!(
+        "<span class=\"badge {class}\"><span aria-hidden=\"true\">{sign}</span>&nbsp;{words}</span>"
+    )
 }
 
 /// A link to a file beside the page. A scheme such as `javascript:` becomes a harmless file name.
@@ -454,7 +456,10 @@ mod tests {
                 [["not reproduced", "2.5"], ["reproduced", "−1"]],
             )
             .render();
-        assert!(html.contains("✗</span> not reproduced") && html.contains("✓</span> reproduced"));
+        assert!(
+            html.contains("✗</span>&nbsp;not reproduced")
+                && html.contains("✓</span>&nbsp;reproduced")
+        );
         assert!(html.contains("<td class=\"number\">2.5</td>"));
     }
 }

@@ -60,16 +60,18 @@ pub(crate) fn strokes_within(clouds: &[(Vec<(f64, f64)>, f64)], limit: usize) ->
 
 /// A polyline (px) with at most about `limit` vertices that looks the same.
 ///
-/// While the pen stays inside one grid column only the first, lowest, highest and last vertex are kept.
+/// Vertices on straight steps go first. If too many remain, as in a history of a thousand periods,
+/// only the first, lowest, highest and last vertex are kept while the pen stays inside a grid column.
 pub(crate) fn polyline(points: &[(f64, f64)], limit: usize) -> Vec<(f64, f64)> {
+    // The second pass joins what the window of the first kept apart.
+    let smooth = straightened(&straightened(points, SAG), SAG);
+    let mut kept = smooth.clone();
     let mut cell = CELL;
-    loop {
-        let kept = straightened(&column_extremes(points, cell), SAG);
-        if cell > 16.0 || kept.len() <= limit {
-            return kept;
-        }
+    while kept.len() > limit && cell <= 16.0 {
+        kept = column_extremes(&smooth, cell);
         cell *= 1.5;
     }
+    kept
 }
 
 /// Deviation from a straight step that nobody sees (px).
