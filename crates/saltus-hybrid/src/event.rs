@@ -4,10 +4,12 @@
 //! way it leaves is read from its first nonzero derivative. A guard already on the wrong side fires
 //! at once, so that nobody falls for ever because a root sat at the start of a step.
 
+use crate::compile::{Structure, Watch};
 use crate::polynomial::{BernsteinTable, MAX_DEGREE, first_descent};
-use crate::system::{Mode, Structure, Watch};
+use crate::system::Mode;
 
-/// A guard counts as having left zero when it exceeds this part of its own Taylor terms.
+/// A guard counts as having left zero when it exceeds this part of its own Taylor terms; below zero
+/// by less, it counts as zero.
 const LEFT_ZERO: f64 = 1e-12;
 
 /// What a stepper must know of one trajectory to watch its guards.
@@ -88,8 +90,9 @@ impl Guarded {
                 continue;
             }
             power.iter_mut().for_each(|a| *a *= watch.sign);
-            let on_zero = power[0] == 0.0 || self.zero[watch.guard] > 0;
-            let theta = match leaves_zero(power, self.zero[watch.guard]) {
+            let multiplicity = self.zero[watch.guard].max(u8::from(just_below_zero(power)));
+            let on_zero = power[0] == 0.0 || multiplicity > 0;
+            let theta = match leaves_zero(power, multiplicity) {
                 Start::Wrong => Some(0.0),
                 Start::Never => None,
                 Start::Right => {
@@ -151,6 +154,13 @@ enum Start {
     Right,
     Wrong,
     Never,
+}
+
+/// Whether a guard is on the wrong side by no more than rounding: it reached zero at the end of the
+/// last step, together with another one or with the sampling instant.
+fn just_below_zero(power: &[f64]) -> bool {
+    let size = power.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+    power[0] < 0.0 && -power[0] <= LEFT_ZERO * size
 }
 
 /// Which side a guard is on just after the start; coefficients known to vanish are made zero, and

@@ -4,6 +4,7 @@
 //! [`integrate`], one trajectory or many. Nothing here knows a plate, a person or a unit of measure.
 
 mod arith;
+mod compile;
 mod event;
 mod lane;
 mod parallel;
@@ -16,7 +17,7 @@ mod system;
 mod taylor;
 pub mod testing;
 
-pub use parallel::integrate_all;
+pub use parallel::{integrate_all, integrate_groups};
 pub use record::{RecordedSwitch, Recording, record};
 pub use run::{
     End, IntegrateError, Leg, Method, Options, Sample, Status, Step, Switch, SwitchKind, Task,

@@ -1,6 +1,6 @@
 //! Many tasks on many threads, with the answer of one thread.
 
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use crate::run::{IntegrateError, Options, Task, integrate};
@@ -10,28 +10,64 @@ use crate::run::{IntegrateError, Options, Task, integrate};
 /// number of threads, to the bit.
 ///
 /// # Errors
-/// As [`integrate`]; the first error stops the others at their next task.
+/// As [`integrate`]; the first error stops the others.
 pub fn integrate_all<T: Task>(
     options: &Options,
     tasks: Vec<T>,
     threads: usize,
     stop: &AtomicBool,
 ) -> Result<Vec<T>, IntegrateError> {
-    let count = tasks.len();
-    let queue = Mutex::new(tasks.into_iter().enumerate());
-    let take = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
-    let work = || {
+    Ok(integrate_groups(options, vec![tasks], threads, stop)?
+        .pop()
+        .unwrap_or_default())
+}
+
+/// As [`integrate_all`] for several groups, each of systems of one structure. A thread stays with a
+/// group while that has tasks, then helps with the next, so that few long tasks of one group do not
+/// leave a thread idle while another group has work.
+///
+/// # Errors
+/// As [`integrate`]; the first error stops the others.
+pub fn integrate_groups<T: Task>(
+    options: &Options,
+    groups: Vec<Vec<T>>,
+    threads: usize,
+    stop: &AtomicBool,
+) -> Result<Vec<Vec<T>>, IntegrateError> {
+    let counts: Vec<usize> = groups.iter().map(Vec::len).collect();
+    let queues: Vec<_> = groups
+        .into_iter()
+        .map(|tasks| Mutex::new(tasks.into_iter().enumerate()))
+        .collect();
+    let failed = AtomicBool::new(false);
+    let work = |first: usize| {
         let mut ended = Vec::new();
-        let mine = std::iter::from_fn(take).map(|(id, task)| Numbered { id, task });
-        integrate(options, mine, stop, |task| ended.push(task)).map(|()| ended)
+        for turn in 0..queues.len() {
+            let group = (first + turn) % queues.len();
+            let take = || {
+                let go_on = !failed.load(Ordering::Relaxed);
+                let mut queue = queues[group].lock().unwrap_or_else(PoisonError::into_inner);
+                go_on.then(|| queue.next()).flatten()
+            };
+            let mine = std::iter::from_fn(take).map(|(id, task)| Numbered {
+                id: (group, id),
+                task,
+            });
+            if let Err(error) = integrate(options, mine, stop, |task| ended.push(task)) {
+                failed.store(true, Ordering::Relaxed);
+                return Err(error);
+            }
+        }
+        Ok(ended)
     };
     let available = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = if threads == 0 { available() } else { threads };
+    let threads = threads.clamp(1, counts.iter().sum::<usize>().max(1));
     let results: Vec<_> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (1..threads.clamp(1, count.max(1)))
-            .map(|_| scope.spawn(work))
+        let workers: Vec<_> = (1..threads)
+            .map(|first| scope.spawn(move || work(first)))
             .collect();
-        let own = work();
+        let own = work(0);
         let join = |worker: std::thread::ScopedJoinHandle<'_, _>| {
             worker
                 .join()
@@ -41,16 +77,22 @@ pub fn integrate_all<T: Task>(
             .chain(workers.into_iter().map(join))
             .collect()
     });
-    let mut ended = Vec::with_capacity(count);
+    let mut out: Vec<Vec<Numbered<T>>> = counts.iter().map(|&n| Vec::with_capacity(n)).collect();
     for result in results {
-        ended.extend(result?);
+        for numbered in result? {
+            out[numbered.id.0].push(numbered);
+        }
     }
-    ended.sort_by_key(|numbered| numbered.id);
-    Ok(ended.into_iter().map(|numbered| numbered.task).collect())
+    let in_order = |mut group: Vec<Numbered<T>>| {
+        group.sort_by_key(|numbered| numbered.id);
+        group.into_iter().map(|numbered| numbered.task).collect()
+    };
+    Ok(out.into_iter().map(in_order).collect())
 }
 
 struct Numbered<T> {
-    id: usize,
+    /// Group and place in it.
+    id: (usize, usize),
     task: T,
 }
 

@@ -8,12 +8,12 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use crate::arith::Scalar;
+use crate::compile::{Structure, Watch};
 use crate::event::Firing;
 use crate::lane::{Lane, Next};
 use crate::polynomial::BernsteinTable;
 use crate::run::{IntegrateError, Leg, Options, Step, Task, check_stop};
-use crate::series::{expand, values};
-use crate::system::{Structure, Watch};
+use crate::series::{Series, expand, values};
 
 /// Degree of the interpolant.
 const HERMITE: usize = 3;
@@ -101,22 +101,22 @@ fn run_leg<T: Task>(
 struct Stepper {
     omega: f64,
     coefficients: Vec<f64>,
-    start: Vec<f64>,
-    end: Vec<f64>,
-    stage: Vec<f64>,
+    start: Series<f64>,
+    end: Series<f64>,
+    stage: Series<f64>,
     rate: Vec<f64>,
     sum: Vec<f64>,
 }
 
 impl Stepper {
     fn new(structure: &Structure, period: f64) -> Self {
-        let (nodes, states) = (structure.nodes(), structure.states);
+        let states = structure.states;
         Self {
             omega: std::f64::consts::TAU / period,
             coefficients: Vec::new(),
-            start: vec![0.0; 2 * nodes],
-            end: vec![0.0; 2 * nodes],
-            stage: vec![0.0; nodes],
+            start: Series::new(structure, 1),
+            end: Series::new(structure, 1),
+            stage: Series::new(structure, 0),
             rate: vec![0.0; states],
             sum: vec![0.0; states],
         }
@@ -131,42 +131,48 @@ impl Stepper {
     }
 
     /// The drive's states are known exactly at every time.
-    fn drive(&self, structure: &Structure, time: f64, x: &mut [f64]) {
-        if let Some((cos, sin)) = structure.drive {
-            (x[sin], x[cos]) = (self.omega * time).sin_cos();
-        }
+    fn drive(&self, structure: &Structure, time: f64) -> Option<[(usize, f64); 2]> {
+        let (sin, cos) = (self.omega * time).sin_cos();
+        structure.drive.map(|(c, s)| [(c, cos), (s, sin)])
     }
 
     /// One step of length `h` from the opened point at time `t`.
     fn step(&mut self, structure: &Structure, t: f64, h: f64, x: &mut [f64]) {
         let states = structure.states;
         for i in 0..states {
-            self.rate[i] = self.start[2 * i + 1];
+            self.rate[i] = self.start.of(i)[1];
             self.sum[i] = self.rate[i];
         }
         for (fraction, weight) in [(0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {
             for i in 0..states {
-                self.stage[i] = self.start[2 * i] + fraction * h * self.rate[i];
+                *self.stage.value(i) = self.start.of(i)[0] + fraction * h * self.rate[i];
             }
-            let mut stage = std::mem::take(&mut self.stage);
-            self.drive(structure, t + fraction * h, &mut stage);
-            values(structure, &self.coefficients, &mut stage);
+            for (i, value) in self
+                .drive(structure, t + fraction * h)
+                .into_iter()
+                .flatten()
+            {
+                *self.stage.value(i) = value;
+            }
+            values(structure, &self.coefficients, &mut self.stage);
             for i in 0..states {
-                self.rate[i] = stage[structure.derivative[i]];
+                self.rate[i] = self.stage.of(structure.derivative[i])[0];
                 self.sum[i] += weight * self.rate[i];
             }
-            self.stage = stage;
         }
-        for i in 0..states {
-            x[i] = self.start[2 * i] + h / 6.0 * self.sum[i];
+        for (i, x) in x.iter_mut().enumerate() {
+            *x = self.start.of(i)[0] + h / 6.0 * self.sum[i];
         }
-        self.drive(structure, t + h, x);
+        for (i, value) in self.drive(structure, t + h).into_iter().flatten() {
+            x[i] = value;
+        }
     }
 
     /// Power coefficients, in the fraction of the step, of the cubic through both ends.
     fn guard(&self, node: usize, h: f64) -> [f64; HERMITE + 1] {
-        let (g0, d0) = (self.start[2 * node], h * self.start[2 * node + 1]);
-        let (g1, d1) = (self.end[2 * node], h * self.end[2 * node + 1]);
+        let &[g0, d0] = self.start.pair(node);
+        let &[g1, d1] = self.end.pair(node);
+        let (d0, d1) = (h * d0, h * d1);
         [
             g0,
             d0,
@@ -181,7 +187,7 @@ impl Stepper {
             .guard(node, h)
             .iter()
             .fold(0.0, |m: f64, a| m.max(a.abs()));
-        (self.end[2 * node], size)
+        (self.end.of(node)[0], size)
     }
 
     /// Moves a switch from the interpolant's root to the root of the guard along RK4 itself; `x`
@@ -201,7 +207,8 @@ impl Stepper {
             for _ in 0..20 {
                 self.step(structure, t, theta * h, x);
                 self.close(structure, x);
-                let newton = self.end[2 * node] / (h * self.end[2 * node + 1]);
+                let &[g, rate] = self.end.pair(node);
+                let newton = g / (h * rate);
                 if !newton.is_finite() || newton.abs() > 0.5 || theta - newton <= 0.0 {
                     break; // nearly tangent: the interpolant's root is as good
                 }
@@ -238,9 +245,9 @@ impl Stepper {
 }
 
 /// All nodes at `x` with their first time derivative where the guards and the states need it.
-fn linearize(structure: &Structure, coefficients: &[f64], x: &[f64], out: &mut [f64]) {
+fn linearize(structure: &Structure, coefficients: &[f64], x: &[f64], out: &mut Series<f64>) {
     for (i, &value) in x.iter().enumerate() {
-        out[2 * i] = value;
+        *out.value(i) = value;
     }
-    expand(Scalar, structure, coefficients, out, 1);
+    expand(Scalar, structure, coefficients, out);
 }

@@ -7,6 +7,9 @@
 
 use std::sync::Arc;
 
+use crate::compile::Structure;
+use crate::series::Series;
+
 /// A quantity of the program: a state or the result of an operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Node {
@@ -95,65 +98,6 @@ pub enum BuildError {
     /// A period that is not positive.
     #[error("the period is {0}: a positive number is needed")]
     Period(f64),
-}
-
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Op {
-    /// node = c + sum of coefficient times node; the constant's coefficient is followed by those of
-    /// the terms.
-    Linear {
-        constant: usize,
-        terms: (usize, usize),
-    },
-    /// node = sum of products.
-    Dot { pairs: (usize, usize) },
-}
-
-/// A transition with everything resolved to indices.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Watch {
-    pub(crate) guard: usize,
-    pub(crate) sign: f64,
-    pub(crate) to: Mode,
-    pub(crate) resets: Vec<(usize, usize)>,
-    pub(crate) vanishing: Vec<(usize, u8)>,
-}
-
-impl Watch {
-    /// Flat node index of the guard.
-    pub(crate) fn guard_node(&self, structure: &Structure) -> usize {
-        structure.guards[self.guard]
-    }
-}
-
-/// The program without its numbers: shared by all members of an ensemble.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Structure {
-    pub(crate) states: usize,
-    /// States that take part in error control: all but the quadratures, which come last.
-    pub(crate) controlled: usize,
-    pub(crate) ops: Vec<Op>,
-    /// Nodes of the terms of all linear operations.
-    pub(crate) terms: Vec<usize>,
-    pub(crate) pairs: Vec<(usize, usize)>,
-    /// Flat node index of each state's derivative.
-    pub(crate) derivative: Vec<usize>,
-    /// Flat node indices of all guards.
-    pub(crate) guards: Vec<usize>,
-    /// Operations that the guards need, in program order.
-    pub(crate) guard_ops: Vec<usize>,
-    /// Transitions of each mode of each unit.
-    pub(crate) units: Vec<Vec<Vec<Watch>>>,
-    /// (coefficient, unit, offset of its table in `Values::tables`).
-    pub(crate) switched: Vec<(usize, usize, usize)>,
-    /// States that hold cos and sin of the drive, if it is driven.
-    pub(crate) drive: Option<(usize, usize)>,
-}
-
-impl Structure {
-    pub(crate) fn nodes(&self) -> usize {
-        self.states + self.ops.len()
-    }
 }
 
 /// A system: a structure and its numbers. Cheap to clone.
@@ -246,7 +190,7 @@ pub struct Evaluator {
     system: System,
     modes: Vec<Mode>,
     coefficients: Vec<f64>,
-    nodes: Vec<f64>,
+    series: Series<f64>,
 }
 
 impl Evaluator {
@@ -256,7 +200,7 @@ impl Evaluator {
         Self {
             coefficients: system.coefficients_in(&modes),
             modes,
-            nodes: vec![0.0; system.structure.nodes()],
+            series: Series::new(&system.structure, 0),
             system: system.clone(),
         }
     }
@@ -268,17 +212,11 @@ impl Evaluator {
             self.coefficients = self.system.coefficients_in(modes);
         }
         let structure = &self.system.structure;
-        self.nodes[..structure.states].copy_from_slice(&x[..structure.states]);
-        crate::series::values(structure, &self.coefficients, &mut self.nodes);
-        &self.nodes
-    }
-
-    /// Time derivative of the state at (modes, x).
-    pub fn derivative(&mut self, modes: &[Mode], x: &[f64], dx: &mut [f64]) {
-        self.nodes(modes, x);
-        for (out, &node) in dx.iter_mut().zip(&self.system.structure.derivative) {
-            *out = self.nodes[node];
+        for (i, &value) in x[..structure.states].iter().enumerate() {
+            *self.series.value(i) = value;
         }
+        crate::series::values(structure, &self.coefficients, &mut self.series);
+        self.series.all()
     }
 }
 
@@ -302,18 +240,21 @@ impl Evaluator {
 pub struct SystemBuilder {
     declared: usize,
     drive: Option<f64>,
-    quadratures: Vec<Node>,
+    quadratures: usize,
     derivative: Vec<Option<Node>>,
     ops: Vec<RawOp>,
+    /// Nodes that the operations make.
+    nodes: usize,
     coefficients: Vec<f64>,
     switched: Vec<(usize, usize, Vec<f64>)>,
     units: Vec<Vec<Vec<Transition>>>,
 }
 
 #[derive(Clone, Debug)]
-enum RawOp {
+pub(crate) enum RawOp {
     Linear { constant: usize, terms: Vec<Node> },
     Dot(Vec<(Node, Node)>),
+    Products(Vec<(Node, Node)>),
 }
 
 impl SystemBuilder {
@@ -322,9 +263,10 @@ impl SystemBuilder {
         Self {
             declared: states,
             drive: None,
-            quadratures: Vec::new(),
+            quadratures: 0,
             derivative: vec![None; states],
             ops: Vec::new(),
+            nodes: 0,
             coefficients: Vec::new(),
             switched: Vec::new(),
             units: Vec::new(),
@@ -339,7 +281,7 @@ impl SystemBuilder {
     /// Drives the system at angular frequency `omega`; gives cos(omega t) and sin(omega t).
     /// Call it once, before any quadrature.
     pub fn drive(&mut self, omega: f64) -> (Node, Node) {
-        debug_assert!(self.drive.is_none() && self.quadratures.is_empty());
+        debug_assert!(self.drive.is_none() && self.quadratures == 0);
         self.drive = Some(omega);
         let (cos, sin) = (Node::State(self.declared), Node::State(self.declared + 1));
         let dcos = self.linear(0.0, &[(-omega, sin)]);
@@ -354,8 +296,13 @@ impl SystemBuilder {
     }
 
     fn push(&mut self, op: RawOp) -> Node {
+        let node = Node::Op(self.nodes);
+        self.nodes += match &op {
+            RawOp::Products(list) => list.len(),
+            RawOp::Linear { .. } | RawOp::Dot(_) => 1,
+        };
         self.ops.push(op);
-        Node::Op(self.ops.len() - 1)
+        node
     }
 
     /// constant + sum of coefficient times node.
@@ -371,6 +318,14 @@ impl SystemBuilder {
     /// Sum of products of two nodes each.
     pub fn dot(&mut self, pairs: &[(Node, Node)]) -> Node {
         self.push(RawOp::Dot(pairs.to_vec()))
+    }
+
+    /// Many products of two nodes each, none of which may be a factor of another: the same as one
+    /// [`Self::dot`] for each, and faster.
+    pub fn products(&mut self, pairs: &[(Node, Node)]) -> Vec<Node> {
+        let first = self.nodes;
+        self.push(RawOp::Products(pairs.to_vec()));
+        (first..self.nodes).map(Node::Op).collect()
     }
 
     /// `node` times a number that depends on the mode of `unit`, one for each mode.
@@ -407,7 +362,7 @@ impl SystemBuilder {
     /// The time integral of `integrand`, kept out of the error control: the rest of the state is
     /// the same to the bit with and without it. Call it after [`Self::drive`].
     pub fn quadrature(&mut self, integrand: Node) -> usize {
-        self.quadratures.push(integrand);
+        self.quadratures += 1;
         self.derivative.push(Some(integrand));
         self.derivative.len() - 1
     }
@@ -429,87 +384,12 @@ impl SystemBuilder {
                 value: self.coefficients[index],
             });
         }
-        let states = self.derivative.len();
-        let total = self.ops.len();
-        let flat = |node: Node, before: usize| match node {
-            Node::State(i) if i < states => Ok(i),
-            Node::Op(i) if i < before => Ok(states + i),
-            other => Err(BuildError::Undefined(format!("{other:?}"))),
-        };
-        let (mut ops, mut terms, mut pairs) = (Vec::new(), Vec::new(), Vec::new());
-        for (i, op) in self.ops.iter().enumerate() {
-            match op {
-                RawOp::Linear {
-                    constant,
-                    terms: list,
-                } => {
-                    let start = terms.len();
-                    for &node in list {
-                        terms.push(flat(node, i)?);
-                    }
-                    ops.push(Op::Linear {
-                        constant: *constant,
-                        terms: (start, terms.len()),
-                    });
-                }
-                RawOp::Dot(list) => {
-                    let start = pairs.len();
-                    for &(a, b) in list {
-                        pairs.push((flat(a, i)?, flat(b, i)?));
-                    }
-                    ops.push(Op::Dot {
-                        pairs: (start, pairs.len()),
-                    });
-                }
-            }
-        }
-        let derivative = self
-            .derivative
-            .iter()
-            .enumerate()
-            .map(|(i, node)| flat(node.ok_or(BuildError::NoDerivative(i))?, total))
-            .collect::<Result<Vec<_>, _>>()?;
-        let mut guards: Vec<usize> = Vec::new();
-        let mut guard = |node: Node| {
-            let index = flat(node, total)?;
-            Ok(guards.iter().position(|&g| g == index).unwrap_or_else(|| {
-                guards.push(index);
-                guards.len() - 1
-            }))
-        };
-        let mut units = Vec::new();
-        for modes in &self.units {
-            let mut out = Vec::new();
-            for transitions in modes {
-                let mut watches = Vec::new();
-                for t in transitions {
-                    if t.to >= modes.len() {
-                        return Err(BuildError::Undefined(format!("mode {}", t.to)));
-                    }
-                    let own = guard(t.guard)?;
-                    let mut vanishing = vec![(own, 1)];
-                    for &(node, multiplicity) in &t.vanishing {
-                        vanishing.push((guard(node)?, multiplicity));
-                    }
-                    let resets = t
-                        .resets
-                        .iter()
-                        .map(|&(state, value)| Ok((state, flat(value, total)?)))
-                        .collect::<Result<Vec<_>, BuildError>>()?;
-                    watches.push(Watch {
-                        guard: own,
-                        sign: t.sign,
-                        to: t.to,
-                        resets,
-                        vanishing,
-                    });
-                }
-                out.push(watches);
-            }
-            units.push(out);
-        }
+        let mut structure = Structure::new(self.derivative.len(), &self.ops)?;
+        structure.controlled -= self.quadratures;
+        structure.drive = self.drive.map(|_| (self.declared, self.declared + 1));
+        structure.derive(&self.derivative)?;
+        structure.watch(&self.units)?;
         let mut tables = Vec::new();
-        let mut switched = Vec::new();
         for (slot, unit, values) in &self.switched {
             if self.units[*unit].len() != values.len() {
                 return Err(BuildError::Undefined(format!(
@@ -522,61 +402,14 @@ impl SystemBuilder {
                     value,
                 });
             }
-            switched.push((*slot, *unit, tables.len()));
+            structure.switched.push((*slot, *unit, tables.len()));
             tables.extend(values);
         }
-        let guard_ops = needed_by(&guards, states, &ops, &terms, &pairs);
         Ok(System {
-            structure: Arc::new(Structure {
-                states,
-                controlled: states - self.quadratures.len(),
-                ops,
-                terms,
-                pairs,
-                derivative,
-                guards,
-                guard_ops,
-                units,
-                switched,
-                drive: self.drive.map(|_| (self.declared, self.declared + 1)),
-            }),
+            structure: Arc::new(structure),
             coefficients: self.coefficients.into(),
             tables: tables.into(),
             period,
         })
     }
-}
-
-/// Operations that these nodes depend on, in program order.
-fn needed_by(
-    nodes: &[usize],
-    states: usize,
-    ops: &[Op],
-    terms: &[usize],
-    pairs: &[(usize, usize)],
-) -> Vec<usize> {
-    let mut needed = vec![false; ops.len()];
-    for &node in nodes {
-        if node >= states {
-            needed[node - states] = true;
-        }
-    }
-    for i in (0..ops.len()).rev() {
-        if !needed[i] {
-            continue;
-        }
-        let mut mark = |node: usize| {
-            if node >= states {
-                needed[node - states] = true;
-            }
-        };
-        match &ops[i] {
-            Op::Linear { terms: t, .. } => terms[t.0..t.1].iter().for_each(|&n| mark(n)),
-            Op::Dot { pairs: p } => pairs[p.0..p.1].iter().for_each(|&(a, b)| {
-                mark(a);
-                mark(b);
-            }),
-        }
-    }
-    (0..ops.len()).filter(|&i| needed[i]).collect()
 }

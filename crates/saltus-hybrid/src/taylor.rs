@@ -11,12 +11,12 @@ use std::sync::atomic::AtomicBool;
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
 
 use crate::arith::{Arith, LANES, Pack, Wide};
+use crate::compile::Structure;
 use crate::event::Firing;
 use crate::lane::{Lane, Next};
 use crate::polynomial::BernsteinTable;
 use crate::run::{IntegrateError, Leg, Options, Status, Step, Task, check_stop};
-use crate::series::expand;
-use crate::system::Structure;
+use crate::series::{Series, expand};
 
 /// Runs all tasks, at the best instruction set of this machine.
 pub(crate) fn run<T: Task>(
@@ -65,8 +65,7 @@ struct Ensemble<T> {
     lanes: [Option<Lane<T>>; LANES],
     plans: [Plan; LANES],
     coefficients: Vec<Pack>,
-    /// Taylor coefficients, node by node.
-    series: Vec<Pack>,
+    series: Series<Pack>,
     /// Largest last, last-but-one and first coefficient of each lane.
     tail: [Pack; 3],
     /// Smallest and largest Bernstein coefficient of each guard over the step.
@@ -86,7 +85,7 @@ impl<T: Task> Ensemble<T> {
             lanes: std::array::from_fn(|_| None),
             plans: [Plan::default(); LANES],
             coefficients: Vec::new(),
-            series: Vec::new(),
+            series: Series::default(),
             tail: [Pack::default(); 3],
             bounds: Vec::new(),
             lengths: Pack::default(),
@@ -140,16 +139,16 @@ impl<T: Task> Ensemble<T> {
                 (task, leg) = lane.finish(Status::Completed);
                 continue;
             }
-            let stride = self.order + 1;
             self.coefficients
                 .resize(next.system.coefficients.len(), Pack::default());
-            self.series
-                .resize(structure.nodes() * stride, Pack::default());
+            if self.series.is_empty() {
+                self.series = Series::new(&structure, self.order);
+            }
             self.bounds
                 .resize(structure.guards.len(), [Pack::default(); 2]);
             self.x.resize(structure.states, 0.0);
             for (state, &value) in next.start.x.iter().enumerate() {
-                self.series[state * stride].0[slot] = value;
+                self.series.value(state).0[slot] = value;
             }
             self.lanes[slot] = Some(lane);
             self.load_coefficients(slot);
@@ -161,7 +160,7 @@ impl<T: Task> Ensemble<T> {
     /// An idle lane computes with zeros, which disturb nobody.
     fn clear(&mut self, slot: usize) {
         self.coefficients.iter_mut().for_each(|c| c.0[slot] = 0.0);
-        self.series.iter_mut().for_each(|c| c.0[slot] = 0.0);
+        self.series.cells().for_each(|c| c.0[slot] = 0.0);
         self.lengths.0[slot] = 0.0;
     }
 
@@ -180,18 +179,11 @@ impl<T: Task> Ensemble<T> {
         let Some(structure) = self.structure.clone() else {
             return;
         };
-        expand(
-            arith,
-            &structure,
-            &self.coefficients,
-            &mut self.series,
-            self.order,
-        );
-        let stride = self.order + 1;
+        expand(arith, &structure, &self.coefficients, &mut self.series);
         let mut tail = [arith.splat(0.0); 3];
         for state in 0..structure.controlled {
             for (k, tail) in [self.order, self.order - 1, 0].into_iter().zip(&mut tail) {
-                let term = arith.load(&self.series[state * stride + k]);
+                let term = arith.load(&self.series.of(state)[k]);
                 // The maximum may drop a NaN; adding 0 x keeps it.
                 *tail = tail.max(term.abs()) + term * arith.splat(0.0);
             }
@@ -233,10 +225,9 @@ impl<T: Task> Ensemble<T> {
     /// their sign needs no root search.
     #[inline(always)]
     fn bound_guards<S: Simd>(&mut self, arith: Wide<S>, structure: &Structure) {
-        let stride = self.order + 1;
         let length = arith.load(&self.lengths);
         for (bounds, &node) in self.bounds.iter_mut().zip(&structure.guards) {
-            let power = &self.series[node * stride..(node + 1) * stride];
+            let power = self.series.of(node);
             let mut scaled = [arith.splat(0.0); crate::polynomial::MAX_DEGREE + 1];
             let mut scale = arith.splat(1.0);
             for (scaled, a) in scaled.iter_mut().zip(power) {
@@ -264,7 +255,6 @@ impl<T: Task> Ensemble<T> {
         if plan.failed {
             return;
         }
-        let stride = self.order + 1;
         let (series, bounds, length) = (&self.series, &self.bounds, plan.length);
         let guarded = &lane.guarded;
         let (firing, touches) = guarded.next(structure, &self.table, self.order, |watch, power| {
@@ -279,10 +269,7 @@ impl<T: Task> Ensemble<T> {
             }
             let node = structure.guards[watch.guard];
             let mut scale = 1.0;
-            for (out, a) in power
-                .iter_mut()
-                .zip(&series[node * stride..(node + 1) * stride])
-            {
+            for (out, a) in power.iter_mut().zip(series.of(node)) {
                 *out = a.0[slot] * scale;
                 scale *= length;
             }
@@ -299,7 +286,7 @@ impl<T: Task> Ensemble<T> {
             self.dense.clear();
             for state in 0..structure.states {
                 self.dense
-                    .extend((0..stride).map(|k| series[state * stride + k].0[slot]));
+                    .extend(series.of(state).iter().map(|a| a.0[slot]));
             }
             let step = Step {
                 period: lane.period,
@@ -316,7 +303,7 @@ impl<T: Task> Ensemble<T> {
             lane.guarded.advanced(|guard| {
                 let node = structure.guards[guard];
                 let (mut value, mut size, mut scale) = (0.0, 0.0_f64, 1.0);
-                for a in &series[node * stride..(node + 1) * stride] {
+                for a in series.of(node) {
                     let term = a.0[slot] * scale;
                     value += term;
                     size = size.max(term.abs());
@@ -333,10 +320,9 @@ impl<T: Task> Ensemble<T> {
         let Some(structure) = &self.structure else {
             return;
         };
-        let stride = self.order + 1;
         let h = arith.load(&self.lengths);
         for state in 0..structure.states {
-            let power = &mut self.series[state * stride..(state + 1) * stride];
+            let power = self.series.of_mut(state);
             let mut sum = arith.load(&power[self.order]);
             for a in power[..self.order].iter().rev() {
                 sum = arith.mul_add(sum, h, arith.load(a));
@@ -349,13 +335,12 @@ impl<T: Task> Ensemble<T> {
     fn book(&mut self, slot: usize, options: &Options) -> Option<Status> {
         let lane = self.lanes[slot].as_mut()?;
         let plan = self.plans[slot];
-        let stride = self.order + 1;
         for (state, x) in self.x.iter_mut().enumerate() {
-            *x = self.series[state * stride].0[slot];
+            *x = self.series.of(state)[0].0[slot];
         }
         if plan.failed {
             let finite = |state: &usize| {
-                let power = &self.series[state * stride..(state + 1) * stride];
+                let power = self.series.of(*state);
                 power.iter().all(|a| a.0[slot].is_finite())
             };
             let bad = (0..self.x.len()).find(|state| !finite(state)).unwrap_or(0);
@@ -372,7 +357,7 @@ impl<T: Task> Ensemble<T> {
         );
         if changes {
             for (state, &x) in self.x.iter().enumerate() {
-                self.series[state * stride].0[slot] = x;
+                self.series.value(state).0[slot] = x;
             }
         }
         if plan.firing.is_some() {

@@ -173,14 +173,10 @@ fn elastic_forces(
     let h = scales.length;
     let per_mass = 1.0 / (e.transverse_mass * scales.omega.powi(2));
     // All products R_j R_k, j <= k.
-    let squares: HashMap<(usize, usize), Node> = pairs(n)
-        .map(|(j, k)| {
-            (
-                (j, k),
-                b.dot(&[(b.state(layout.r(j)), b.state(layout.r(k)))]),
-            )
-        })
+    let factors: Vec<_> = pairs(n)
+        .map(|(j, k)| (b.state(layout.r(j)), b.state(layout.r(k))))
         .collect();
+    let squares: HashMap<(usize, usize), Node> = pairs(n).zip(b.products(&factors)).collect();
     // T_jk as sums over R_l R_m and P_i.
     let mut tension: HashMap<(usize, usize), Vec<(f64, Node)>> = HashMap::new();
     let quartic = match setup.inertia {

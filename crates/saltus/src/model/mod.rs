@@ -283,6 +283,12 @@ impl Model {
         &self.setup
     }
 
+    /// Number of states that may be chosen freely: all but the drive and the energy integrals, which
+    /// come after them.
+    pub fn free_states(&self) -> usize {
+        self.layout.len()
+    }
+
     /// Units of its state.
     pub fn scales(&self) -> &Scales {
         &self.scales

@@ -1,7 +1,7 @@
 //! What all studies share: how to run, how to stop, how to report progress, what can go wrong.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 
 use saltus_hybrid::{IntegrateError, Options};
 
@@ -24,6 +24,40 @@ impl Control {
     pub(crate) fn count_period(&self) {
         self.done.fetch_add(1, Ordering::Relaxed);
     }
+}
+
+/// `f` of each item, spread over threads (0: as many as the machine has), in the order of the items.
+pub(crate) fn in_parallel<I: Sync, O: Send>(
+    items: &[I],
+    threads: usize,
+    f: impl Fn(&I) -> O + Sync,
+) -> Vec<O> {
+    let available = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let threads = if threads == 0 { available() } else { threads }.clamp(1, items.len().max(1));
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let take = || {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            items.get(index).map(|item| (index, item))
+        };
+        std::iter::from_fn(take)
+            .map(|(index, item)| (index, f(item)))
+            .collect::<Vec<_>>()
+    };
+    let mut out: Vec<(usize, O)> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
+        let own = work();
+        let join = |worker: std::thread::ScopedJoinHandle<'_, _>| {
+            worker
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        };
+        own.into_iter()
+            .chain(workers.into_iter().flat_map(join))
+            .collect()
+    });
+    out.sort_by_key(|(index, _)| *index);
+    out.into_iter().map(|(_, value)| value).collect()
 }
 
 /// Why a study has no answer.

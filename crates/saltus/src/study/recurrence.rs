@@ -8,7 +8,8 @@
 pub fn recurrence(z: &[f64], v: &[f64], tolerance: f64) -> Option<u32> {
     let close = |a: f64, b: f64| (a - b).abs() <= tolerance;
     let repeats = |&n: &usize| {
-        z.iter().zip(&z[n..]).all(|(a, b)| close(*a, *b)) && v.iter().zip(&v[n..]).all(|(a, b)| close(*a, *b))
+        z.iter().zip(&z[n..]).all(|(a, b)| close(*a, *b))
+            && v.iter().zip(&v[n..]).all(|(a, b)| close(*a, *b))
     };
     (1..=z.len() / 2).find(repeats).map(|n| n as u32)
 }
@@ -26,7 +27,9 @@ mod tests {
 
     #[test]
     fn a_rotation_does_not_repeat() {
-        let z: Vec<f64> = (0..100).map(|i| (f64::from(i) * 0.618_034 * std::f64::consts::TAU).sin()).collect();
+        let z: Vec<f64> = (0..100)
+            .map(|i| (f64::from(i) * 0.618_034 * std::f64::consts::TAU).sin())
+            .collect();
         assert_eq!(recurrence(&z, &z, 1e-3), None);
     }
 

@@ -1,7 +1,7 @@
 //! The brute-force bifurcation diagram: for each value of a parameter, let transients die, then keep
 //! the stroboscopic samples. Del Prado's method, as DP section 3 uses it.
 
-use saltus_hybrid::{End, Leg, Point, Sample, Status, Task, integrate_all};
+use saltus_hybrid::{End, Leg, Point, Sample, Status, Task, integrate_groups};
 
 use super::{Control, StudyError};
 use crate::model::{Contact, Model, ModelError};
@@ -67,6 +67,8 @@ pub struct SweepRow {
     pub contact_ratio: Vec<f64>,
     /// How the run ended, or the model's error.
     pub status: Result<Status, ModelError>,
+    /// Last state, to go on from; `None` without a model.
+    pub end: Option<Point>,
 }
 
 /// Runs the sweep; one row per pass and value, pass by pass, values ascending within each.
@@ -83,8 +85,11 @@ where
     Ok(sweep_many(&[(sweep.clone(), &model_at)], control)?.remove(0))
 }
 
-/// Several sweeps at once, so that their chains share the lanes. All models have one structure.
-pub(crate) fn sweep_many<F>(
+/// Several sweeps at once, so that their chains share the lanes.
+///
+/// # Errors
+/// As [`sweep`].
+pub fn sweep_many<F>(
     sweeps: &[(Sweep, F)],
     control: &Control,
 ) -> Result<Vec<Vec<SweepRow>>, StudyError>
@@ -122,7 +127,15 @@ where
     }
     // The longest first: chains are sequential and would otherwise end last.
     tasks.sort_by_key(|task| std::cmp::Reverse(task.values.len()));
-    let ended = integrate_all(&control.options, tasks, control.threads, &control.stop)?;
+    let group_of = groups(sweeps);
+    let mut grouped: Vec<Vec<_>> = Vec::new();
+    for task in tasks {
+        let group = group_of[task.sweep_index];
+        grouped.resize_with(grouped.len().max(group + 1), Vec::new);
+        grouped[group].push(task);
+    }
+    let ended = integrate_groups(&control.options, grouped, control.threads, &control.stop)?;
+    let ended = ended.into_iter().flatten();
     let mut rows: Vec<Vec<(usize, SweepRow)>> = vec![Vec::new(); sweeps.len()];
     for chain in ended {
         rows[chain.sweep_index].extend(chain.rows);
@@ -134,6 +147,27 @@ where
         .into_iter()
         .map(|rows| rows.into_iter().map(|(_, row)| row).collect())
         .collect())
+}
+
+/// Which sweeps share a structure, so that they can share lanes: a group number for each.
+fn groups<F>(sweeps: &[(Sweep, F)]) -> Vec<usize>
+where
+    F: Fn(f64) -> Result<Model, ModelError> + Sync,
+{
+    let mut known: Vec<Option<Model>> = Vec::new();
+    let first =
+        |(sweep, model_at): &(Sweep, F)| sweep.values.iter().find_map(|&v| model_at(v).ok());
+    let mut group = |model: Option<Model>| {
+        let same = |other: &Option<Model>| match (&model, other) {
+            (Some(a), Some(b)) => a.system().same_structure(b.system()),
+            _ => false,
+        };
+        known.iter().position(same).unwrap_or_else(|| {
+            known.push(model.clone());
+            known.len() - 1
+        })
+    };
+    sweeps.iter().map(|sweep| group(first(sweep))).collect()
 }
 
 /// One pass with carried state, or one restart.
@@ -164,7 +198,7 @@ where
     F: Fn(f64) -> Result<Model, ModelError> + Sync,
 {
     /// The next value that has a model, from the carried state if there is one.
-    fn advance(&mut self, carried: Option<(Model, Point)>) -> Option<Leg> {
+    fn advance(&mut self, mut carried: Option<(Model, Point)>) -> Option<Leg> {
         while let Some(&(index, value)) = self.values.get(self.next) {
             self.next += 1;
             let mut row = SweepRow {
@@ -174,11 +208,14 @@ where
                 v: Vec::new(),
                 contact_ratio: Vec::new(),
                 status: Ok(Status::Completed),
+                end: None,
             };
-            match (self.model_at)(value) {
+            let stable = |model: Model| model.check_step(&self.control.options).map(|()| model);
+            match (self.model_at)(value).and_then(stable) {
                 Err(error) => {
                     row.status = Err(error);
                     self.rows.push((index, row));
+                    carried = None;
                 }
                 Ok(mut model) => {
                     let start = match &carried {
@@ -252,6 +289,7 @@ where
         let kept = end.periods.saturating_sub(self.transient) as f64 * model.system().period();
         row.contact_ratio = stance.iter().map(|time| time / kept).collect();
         row.status = Ok(end.status);
+        row.end = Some(end.point.clone());
         self.rows.push((index, row));
         let carried = (end.status == Status::Completed).then_some((model, end.point));
         self.advance(carried)

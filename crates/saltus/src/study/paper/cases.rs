@@ -1,0 +1,184 @@
+//! Fig. 3: phase portraits and Poincare points of eight named cases.
+
+use saltus_hybrid::Point;
+
+use super::{Effort, setup};
+use crate::model::{Contact, Inertia, Model};
+use crate::physics::{ContactLaw, FrequencyReference};
+use crate::study::{
+    Control, Exponent, StudyError, Trajectory, in_parallel, largest_exponents, recurrence, settle,
+    simulate,
+};
+
+/// One panel of Fig. 3.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Case {
+    /// a to h.
+    pub tag: char,
+    /// Omega/omega_h.
+    pub ratio: f64,
+    /// zeta_h.
+    pub damping_ratio: f64,
+    /// Whether the paper gives this damping ratio; else we chose one inside the regime it names.
+    pub given: bool,
+    /// What the paper calls the motion.
+    pub paper: &'static str,
+}
+
+/// The eight panels. The paper gives zeta_h for (e), (f) and (g) only.
+pub fn cases() -> [Case; 8] {
+    let case = |tag, ratio, damping_ratio, given, paper| Case {
+        tag,
+        ratio,
+        damping_ratio,
+        given,
+        paper,
+    };
+    [
+        case('a', 0.9, 0.15, false, "2T"),
+        case('b', 0.9, 0.35, false, "1T"),
+        case('c', 1.0, 0.12, false, "chaos"),
+        case('d', 1.0, 0.21, false, "4T"),
+        case('e', 1.0, 0.28, true, "2T"),
+        case('f', 1.1, 0.32, true, "quasi-periodic"),
+        case('g', 1.1, 0.36, true, "suggests 4T"),
+        case('h', 1.1, 0.45, false, "2T"),
+    ]
+}
+
+/// What was found for a case.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CaseResult {
+    /// The case.
+    pub case: Case,
+    /// The settled motion: its time history covers the last periods, its section all kept ones.
+    pub trajectory: Trajectory,
+    /// Forcing period (s).
+    pub period_seconds: f64,
+    /// Forcing periods after which the section repeats to 1e-6; `None` if it does not.
+    pub recurrence: Option<u32>,
+    /// Largest Lyapunov exponent.
+    pub exponent: Option<Exponent>,
+    /// Part of the time on the floor over the kept periods.
+    pub contact_ratio: f64,
+    /// Largest plate reaction force in the time history, in body weights.
+    pub peak_force: f64,
+}
+
+impl CaseResult {
+    /// Flights of the first jumper as intervals (s) within the time history.
+    pub fn flights(&self) -> Vec<(f64, f64)> {
+        let time = &self.trajectory.history.time;
+        let (Some(&first), Some(&last)) = (time.first(), time.last()) else {
+            return Vec::new();
+        };
+        let mut out = Vec::new();
+        let mut since = None;
+        for switch in self.trajectory.switches.iter().filter(|s| s.jumper == 0) {
+            match switch.into {
+                Some(Contact::Flight) => since = Some(switch.time),
+                Some(Contact::Stance) => {
+                    let began = since.take().unwrap_or(0.0_f64);
+                    if switch.time > first {
+                        out.push((began.max(first), switch.time));
+                    }
+                }
+                None => {}
+            }
+        }
+        out.extend(since.map(|began| (began.max(first), last)));
+        out
+    }
+
+    /// In a word or two: what the numbers say.
+    pub fn words(&self) -> String {
+        match (self.recurrence, self.exponent) {
+            (Some(n), _) => format!("{n}T"),
+            (None, Some(e)) if e.sign() == std::cmp::Ordering::Greater => {
+                format!(
+                    "chaotic (exponent {:.3} ± {:.3} per period)",
+                    e.per_period, e.standard_error
+                )
+            }
+            (None, Some(e)) => format!(
+                "does not repeat (exponent {:.3} ± {:.3} per period)",
+                e.per_period, e.standard_error
+            ),
+            (None, None) => "does not repeat".into(),
+        }
+    }
+}
+
+/// Periods run before anything is kept: long, because (g) sits near a period doubling.
+const TRANSIENT: u64 = 2000;
+/// Periods kept in the section, and in the time history.
+const KEPT: u64 = 600;
+const HISTORY: u64 = 64;
+/// Points per period of the time history.
+const POINTS: u32 = 240;
+
+/// Runs all cases of the paper's law with the given reading of omega_h.
+///
+/// # Errors
+/// [`StudyError`] if a case has no model, or when stopped.
+pub fn run_cases(
+    reference: FrequencyReference,
+    effort: &Effort,
+    control: &Control,
+) -> Result<Vec<CaseResult>, StudyError> {
+    let law = ContactLaw::ReactionForce;
+    let mut starts: Vec<(Model, Point)> = Vec::new();
+    for case in cases() {
+        let model = setup(
+            case.damping_ratio,
+            case.ratio,
+            reference,
+            law,
+            Inertia::Condensed,
+        )
+        .model()?;
+        let start = model.start(3.0, 2.0);
+        starts.push((model, start));
+    }
+    let settled = settle(&starts, TRANSIENT, 0, control)?;
+    for (start, settled) in starts.iter_mut().zip(settled) {
+        start.1 = settled.end;
+    }
+    let trajectories = in_parallel(&starts, control.threads, |(model, start)| {
+        simulate(model, start, KEPT, HISTORY, POINTS, control)
+    });
+    let trajectories = trajectories.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let exponents = largest_exponents(&starts, 0, effort.exponent_periods.1, control)?;
+    let result = |(((case, (model, _)), trajectory), exponent): (
+        ((Case, (Model, Point)), Trajectory),
+        _,
+    )| {
+        let column = |pick: fn(&crate::model::Section) -> f64| -> Vec<f64> {
+            trajectory.section.iter().map(pick).collect()
+        };
+        let (z, v) = (column(|s| s.z[0]), column(|s| s.v[0]));
+        let contact: f64 = trajectory.contact_ratio.iter().map(|ratio| ratio[0]).sum();
+        let peak = trajectory
+            .history
+            .states
+            .iter()
+            .map(|s| s.prf[0])
+            .fold(0.0, f64::max);
+        CaseResult {
+            case,
+            period_seconds: model.scales().period(),
+            recurrence: recurrence(&z, &v, 1e-6),
+            exponent,
+            contact_ratio: contact / trajectory.contact_ratio.len().max(1) as f64,
+            peak_force: peak,
+            trajectory,
+        }
+    };
+    Ok(cases()
+        .into_iter()
+        .zip(starts)
+        .zip(trajectories)
+        .zip(exponents)
+        .map(result)
+        .collect())
+}

@@ -1,0 +1,110 @@
+//! Full against condensed: what it costs to let the in-plane motion follow statically.
+
+use saltus_hybrid::Status;
+
+use super::{Effort, RATIOS, setup};
+use crate::model::{Inertia, PreparedPlate};
+use crate::physics::{ContactLaw, FrequencyReference, Plate};
+use crate::study::{Control, Pass, StudyError, Sweep, SweepRow, recurrence, sweep_many};
+
+/// Both models at one damping ratio of one panel, from the same start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InertiaRow {
+    /// Omega/omega_h.
+    pub ratio: f64,
+    /// zeta_h.
+    pub damping_ratio: f64,
+    /// Section of the full model, (z/eta, z'/(eta omega_h)).
+    pub full: (Vec<f64>, Vec<f64>),
+    /// Section of the condensed model.
+    pub condensed: (Vec<f64>, Vec<f64>),
+    /// Largest difference of the two sections in eta, where both repeat after the same number of
+    /// periods; chaotic motions have none to compare.
+    pub difference: Option<f64>,
+    /// Contact ratio of both.
+    pub contact_ratio: (f64, f64),
+}
+
+/// The comparison over all panels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InertiaComparison {
+    /// One row per panel and damping ratio.
+    pub rows: Vec<InertiaRow>,
+    /// Largest difference among periodic motions, in eta.
+    pub largest: f64,
+    /// How many were periodic in both.
+    pub periodic: usize,
+}
+
+/// Runs both models from the start (3, 2) at equal damping ratios in the three panels.
+///
+/// # Errors
+/// [`StudyError`] if there is no model, or when stopped.
+pub fn compare_inertia(
+    effort: &Effort,
+    control: &Control,
+) -> Result<InertiaComparison, StudyError> {
+    let plate = PreparedPlate::new(&Plate::dias_del_prado())?;
+    let (transient, record) = effort.full_periods;
+    let sweep = Sweep {
+        values: Sweep::linspace(0.1, 0.5, effort.full_values),
+        passes: vec![Pass::Start { z: 3.0, v: 2.0 }],
+        start: (3.0, 2.0),
+        transient,
+        record,
+    };
+    let mut sweeps = Vec::new();
+    for inertia in [Inertia::Full, Inertia::Condensed] {
+        for ratio in RATIOS {
+            let plate = std::sync::Arc::clone(&plate);
+            let model_at = move |zeta| {
+                let reference = FrequencyReference::Occupied;
+                setup(zeta, ratio, reference, ContactLaw::ReactionForce, inertia).model_on(&plate)
+            };
+            sweeps.push((sweep.clone(), model_at));
+        }
+    }
+    let mut results = sweep_many(&sweeps, control)?;
+    let condensed = results.split_off(RATIOS.len());
+    let mut rows = Vec::new();
+    for ((ratio, full), condensed) in RATIOS.into_iter().zip(results).zip(condensed) {
+        rows.extend(
+            full.iter()
+                .zip(&condensed)
+                .map(|(full, condensed)| compare(ratio, full, condensed)),
+        );
+    }
+    let differences: Vec<f64> = rows.iter().filter_map(|row| row.difference).collect();
+    Ok(InertiaComparison {
+        rows,
+        largest: differences.iter().copied().fold(0.0, f64::max),
+        periodic: differences.len(),
+    })
+}
+
+fn compare(ratio: f64, full: &SweepRow, condensed: &SweepRow) -> InertiaRow {
+    let section = |row: &SweepRow| {
+        (
+            row.z.first().cloned().unwrap_or_default(),
+            row.v.first().cloned().unwrap_or_default(),
+        )
+    };
+    let period = |(z, v): &(Vec<f64>, Vec<f64>)| recurrence(z, v, 1e-3);
+    let (a, b) = (section(full), section(condensed));
+    let ended = full.status == Ok(Status::Completed) && condensed.status == Ok(Status::Completed);
+    let comparable = ended && period(&a).is_some() && period(&a) == period(&b);
+    let gap = |a: &[f64], b: &[f64]| {
+        a.iter()
+            .zip(b)
+            .fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()))
+    };
+    let contact = |row: &SweepRow| row.contact_ratio.first().copied().unwrap_or(f64::NAN);
+    InertiaRow {
+        ratio,
+        damping_ratio: full.value,
+        difference: comparable.then(|| gap(&a.0, &b.0).max(gap(&a.1, &b.1))),
+        contact_ratio: (contact(full), contact(condensed)),
+        full: a,
+        condensed: b,
+    }
+}

@@ -1,0 +1,88 @@
+//! The paper, complete: every figure and statement of Dias & Del Prado, with our numbers beside it,
+//! and what the paper does not show: other contact laws, full against condensed, the misprints' size.
+
+mod cases;
+mod diagrams;
+mod facts;
+mod inertia;
+mod misprints;
+
+pub use cases::{Case, CaseResult, cases, run_cases};
+pub use diagrams::{Coexistence, Diagram, Regime, coexistence, diagrams, regimes};
+pub use facts::{Fact, Verdict, facts};
+pub use inertia::{InertiaComparison, InertiaRow, compare_inertia};
+pub use misprints::{Misprint, misprints};
+
+use crate::model::{Inertia, Setup};
+use crate::physics::{Base, BaseFrequency, ContactLaw, FrequencyReference};
+
+/// Omega/omega_h of the panels a, b, c of Fig. 2.
+pub const RATIOS: [f64; 3] = [0.9, 1.0, 1.1];
+
+/// How much work to spend.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Effort {
+    /// Damping ratios in a bifurcation diagram, from 0.1 to 0.5.
+    pub values: usize,
+    /// Periods before anything is kept.
+    pub transient: u64,
+    /// Periods kept.
+    pub record: u64,
+    /// Starts (z/eta, z'/(eta omega_h)) beside the up- and down-sweeps.
+    pub starts: Vec<(f64, f64)>,
+    /// Damping ratios at which full and condensed are compared, in each panel.
+    pub full_values: usize,
+    /// Periods for that.
+    pub full_periods: (u64, u64),
+    /// Transient and averaging periods of an exponent.
+    pub exponent_periods: (u64, u64),
+}
+
+impl Effort {
+    /// The paper's resolution and better: steps of 0.001 in zeta_h.
+    pub fn full() -> Self {
+        Self {
+            values: 401,
+            transient: 300,
+            record: 100,
+            starts: vec![(3.0, 2.0), (0.0, 0.0), (-2.0, 1.0)],
+            full_values: 17,
+            full_periods: (150, 50),
+            exponent_periods: (1000, 2000),
+        }
+    }
+
+    /// A look in seconds.
+    pub fn quick() -> Self {
+        Self {
+            values: 81,
+            transient: 150,
+            record: 50,
+            starts: vec![(3.0, 2.0), (0.0, 0.0)],
+            full_values: 5,
+            full_periods: (40, 20),
+            exponent_periods: (300, 500),
+        }
+    }
+}
+
+/// The paper's setup with its three open questions answered: damping ratio, frequency and contact law.
+pub(crate) fn setup(
+    damping_ratio: f64,
+    ratio: f64,
+    reference: FrequencyReference,
+    contact: ContactLaw,
+    inertia: Inertia,
+) -> Setup {
+    let setup = Setup::dias_del_prado(damping_ratio, ratio);
+    let frequency = BaseFrequency::Ratio { ratio, reference };
+    Setup {
+        base: Base {
+            frequency,
+            ..setup.base
+        },
+        contact,
+        inertia,
+        ..setup
+    }
+}
