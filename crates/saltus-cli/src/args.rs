@@ -1,7 +1,7 @@
 //! The grammar of the command line.
 
 use crate::exit::{self, Failure};
-use crate::output;
+use crate::{help, output};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::io::{self, IsTerminal};
 use std::path::PathBuf;
@@ -132,6 +132,7 @@ pub(crate) struct FrequenciesArgs {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = help::SIMULATE)]
 pub(crate) struct SimulateArgs {
     #[command(flatten)]
     pub(crate) study: StudyArgs,
@@ -145,6 +146,7 @@ pub(crate) struct SimulateArgs {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = help::SWEEP)]
 pub(crate) struct SweepArgs {
     #[command(flatten)]
     pub(crate) study: StudyArgs,

@@ -10,7 +10,12 @@
 //! | 141 | the reader of standard output closed it (as `head` does); nothing is said |
 
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
+use saltus::hybrid::IntegrateError;
+use saltus::model::ModelError;
+use saltus::physics::PhysicsError;
+use saltus::study::StudyError as RunError;
 use saltus_config::{StudyError, StudyErrorKind};
+use saltus_results::ResultsError;
 use std::fmt;
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
@@ -39,6 +44,14 @@ pub(crate) enum Failure {
     /// Something wrong with the study.
     #[error("{0}")]
     Study(#[from] StudyError),
+    /// The study is sound in itself, but cannot be used for what was asked.
+    #[error("{message}")]
+    Refused {
+        /// What is wrong.
+        message: String,
+        /// What would be right.
+        help: Option<String>,
+    },
     /// The study is sound, but the computation did not get through.
     #[error("{message}")]
     Computation {
@@ -55,12 +68,14 @@ pub(crate) enum Failure {
         /// What the system said.
         reason: String,
     },
+    /// A result that could not be drawn or stored.
+    #[error(transparent)]
+    Results(#[from] ResultsError),
     /// Whoever read standard output has stopped to.
     #[error("standard output was closed")]
     ClosedPipe,
     /// Ctrl-C.
     #[error("interrupted; nothing was written")]
-    #[cfg_attr(not(test), expect(dead_code, reason = "for the commands that compute"))]
     Interrupted,
 }
 
@@ -70,6 +85,14 @@ impl Failure {
         Self::Computation {
             message: message.to_string(),
             help: None,
+        }
+    }
+
+    /// A study that does not fit the command.
+    pub(crate) fn refused(message: impl fmt::Display, help: impl Into<String>) -> Self {
+        Self::Refused {
+            message: message.to_string(),
+            help: Some(help.into()),
         }
     }
 
@@ -90,11 +113,37 @@ impl Failure {
     fn code(&self) -> u8 {
         match self {
             Self::Study(error) if error.kind() == StudyErrorKind::Unreadable => 3,
-            Self::Computation { .. } => 1,
-            Self::Usage | Self::Study(_) => 2,
-            Self::Write { .. } => 3,
+            Self::Computation { .. } | Self::Results(ResultsError::Png { .. }) => 1,
+            Self::Usage | Self::Study(_) | Self::Refused { .. } => 2,
+            Self::Write { .. } | Self::Results(_) => 3,
             Self::Interrupted => 130,
             Self::ClosedPipe => 141,
+        }
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Integrate(IntegrateError::Interrupted) => Self::Interrupted,
+            RunError::Model(error) => error.into(),
+            other => Self::computation(other),
+        }
+    }
+}
+
+impl From<ModelError> for Failure {
+    /// Algebra that fails is a failed computation; all else is a study that says something impossible.
+    fn from(error: ModelError) -> Self {
+        let message = error.to_string();
+        match error {
+            ModelError::Physics(
+                PhysicsError::Algebra { .. } | PhysicsError::NotConverged { .. },
+            ) => Self::computation(message),
+            _ => Self::Refused {
+                message,
+                help: None,
+            },
         }
     }
 }
@@ -103,6 +152,9 @@ impl Diagnostic for Failure {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         match self {
             Self::Computation {
+                help: Some(help), ..
+            }
+            | Self::Refused {
                 help: Some(help), ..
             } => Some(Box::new(help)),
             _ => None,
@@ -158,6 +210,7 @@ mod tests {
         for failure in [
             Failure::Usage,
             Failure::computation("x"),
+            Failure::refused("x", "y"),
             Failure::write("x", &std::io::Error::other("y")),
             Failure::Interrupted,
             Failure::ClosedPipe,

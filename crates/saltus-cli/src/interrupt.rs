@@ -1,21 +1,33 @@
 //! Ctrl-C: the first asks a computation to stop, the second ends the program at once.
 
-use std::sync::Once;
+use crate::exit::Failure;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 
-static ASKED: AtomicBool = AtomicBool::new(false);
-static WATCH: Once = Once::new();
+static ASKED: OnceLock<Arc<AtomicBool>> = OnceLock::new();
 
 /// Turns true at the first Ctrl-C. Short commands do not call this and end as any program does.
-#[expect(dead_code, reason = "for the commands that compute")]
-pub(crate) fn flag() -> &'static AtomicBool {
-    WATCH.call_once(|| {
+pub(crate) fn flag() -> Arc<AtomicBool> {
+    let watch = || {
+        let asked = Arc::new(AtomicBool::new(false));
+        let seen = Arc::clone(&asked);
         // without a handler Ctrl-C ends the program at once, which is well enough
-        let _ = ctrlc::set_handler(|| {
-            if ASKED.swap(true, Ordering::SeqCst) {
+        let _ = ctrlc::set_handler(move || {
+            if seen.swap(true, Ordering::SeqCst) {
                 std::process::exit(130);
             }
         });
-    });
-    &ASKED
+        asked
+    };
+    Arc::clone(ASKED.get_or_init(watch))
+}
+
+/// `Err` after Ctrl-C; asked between the parts of a command that the computation does not see.
+pub(crate) fn check() -> Result<(), Failure> {
+    let asked = ASKED.get().is_some_and(|flag| flag.load(Ordering::SeqCst));
+    if asked {
+        Err(Failure::Interrupted)
+    } else {
+        Ok(())
+    }
 }

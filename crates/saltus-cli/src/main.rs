@@ -3,9 +3,13 @@
 mod args;
 mod commands;
 mod exit;
+mod folder;
+mod help;
 mod interrupt;
 mod output;
+mod per_jumper;
 mod progress;
+mod status;
 
 use std::process::ExitCode;
 

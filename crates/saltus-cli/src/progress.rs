@@ -1,43 +1,53 @@
 //! A progress bar on standard error, only where someone is looking.
-#![expect(dead_code, reason = "for the commands that compute")]
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::{self, IsTerminal};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
 
-/// Counts finished pieces of work; may be shared between threads.
-pub(crate) struct Progress {
-    bar: ProgressBar,
+/// Time between two looks at the counter: smooth to the eye, nothing to the processor.
+const TICK: Duration = Duration::from_millis(100);
+
+/// Does `work` while showing how far `done` has come towards `total` pieces of `what`; silent if
+/// `quiet` or if standard error is not a terminal.
+pub(crate) fn follow<T>(
+    total: u64,
+    what: &str,
+    quiet: bool,
+    done: &AtomicU64,
+    work: impl FnOnce() -> T,
+) -> T {
+    if quiet || !io::stderr().is_terminal() {
+        return work();
+    }
+    let bar = &Cleared(bar(total, what));
+    thread::scope(|scope| {
+        // dropped when the work is done, also by a panic, and that ends the watch
+        let (_working, watch) = mpsc::channel::<()>();
+        scope.spawn(move || {
+            while watch.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
+                bar.0.set_position(done.load(Ordering::Relaxed));
+            }
+        });
+        work()
+    })
 }
 
-impl Progress {
-    /// `total` pieces of `what`; silent if `quiet` or if standard error is not a terminal.
-    pub(crate) fn new(total: u64, what: &str, quiet: bool) -> Self {
-        if quiet || !io::stderr().is_terminal() {
-            return Self {
-                bar: ProgressBar::hidden(),
-            };
-        }
-        let bar = ProgressBar::new(total).with_message(what.to_owned());
-        if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} {eta}") {
-            bar.set_style(style);
-        }
-        Self { bar }
+fn bar(total: u64, what: &str) -> ProgressBar {
+    let bar = ProgressBar::new(total).with_message(what.to_owned());
+    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}, {eta} left") {
+        bar.set_style(style);
     }
-
-    /// `pieces` more are finished.
-    pub(crate) fn inc(&self, pieces: u64) {
-        self.bar.inc(pieces);
-    }
-
-    /// All is done: the line is cleared.
-    pub(crate) fn finish(&self) {
-        self.bar.finish_and_clear();
-    }
+    bar
 }
 
-impl Drop for Progress {
-    /// An error message must not follow half a bar.
+/// A bar that leaves its line: a message must not follow half of it.
+struct Cleared(ProgressBar);
+
+impl Drop for Cleared {
     fn drop(&mut self) {
-        self.bar.finish_and_clear();
+        self.0.finish_and_clear();
     }
 }

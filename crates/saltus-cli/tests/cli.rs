@@ -1,73 +1,14 @@
 //! The program as its users meet it: exit codes, streams, files.
 #![allow(clippy::unwrap_used)]
 
-use assert_cmd::Command;
+mod common;
+
+use common::{Desk, json, program, saltus};
 use predicates::prelude::*;
 use predicates::str::contains;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command as Process, Stdio};
-
-fn saltus(args: &[&str]) -> Command {
-    let mut command = Command::new(program());
-    command.args(args).env_remove("NO_COLOR");
-    command
-}
-
-fn program() -> &'static str {
-    env!("CARGO_BIN_EXE_saltus")
-}
-
-/// A folder with the paper's study in it.
-struct Desk {
-    folder: tempfile::TempDir,
-}
-
-impl Desk {
-    fn new() -> Self {
-        let desk = Self {
-            folder: tempfile::tempdir().unwrap(),
-        };
-        saltus(&["init", "paper", "--out", desk.str("paper.toml").as_str()])
-            .assert()
-            .success()
-            .stdout("");
-        desk
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn str(&self, name: &str) -> String {
-        self.path(name).display().to_string()
-    }
-
-    fn paper(&self) -> String {
-        self.str("paper.toml")
-    }
-
-    /// The names in the folder.
-    fn names(&self) -> Vec<String> {
-        let mut names: Vec<String> = fs::read_dir(self.folder.path())
-            .unwrap()
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect();
-        names.sort();
-        names
-    }
-}
-
-fn json(command: &mut Command) -> serde_json::Value {
-    let output = command
-        .assert()
-        .success()
-        .stderr("")
-        .get_output()
-        .stdout
-        .clone();
-    serde_json::from_slice(&output).unwrap()
-}
 
 #[test]
 fn help_names_commands_and_exit_codes() {
@@ -290,13 +231,15 @@ fn unwritable_paths_end_with_3_and_leave_nothing() {
         &["schema", "--out", &missing],
         &["check", &paper, "--out", &inside],
         &["frequencies", &paper, "--out", &inside],
+        &["simulate", &paper, "--out", &inside],
+        &["sweep", &paper, "--out", &inside],
     ] {
         let path = args[args.len() - 1];
         saltus(args)
             .assert()
             .code(3)
             .stdout("")
-            .stderr(contains("cannot write").and(contains(path)));
+            .stderr(contains("cannot").and(contains(path)));
     }
     assert_eq!(desk.names(), ["paper.toml"]);
 }
@@ -324,6 +267,8 @@ fn a_full_disk_ends_with_3() {
         &["check", &paper],
         &["check", &paper, "--json"],
         &["frequencies", &paper],
+        &["simulate", &paper, "--periods", "1"],
+        &["simulate", &paper, "--periods", "1", "--json"],
     ] {
         let full = fs::OpenOptions::new()
             .write(true)
@@ -357,6 +302,7 @@ fn a_closed_pipe_ends_quietly() {
         &["schema"][..],
         &["init", "paper"],
         &["check", &paper, "--json"],
+        &["simulate", &paper, "--periods", "1", "--json"],
         &["--help"],
     ] {
         let (reader, writer) = std::io::pipe().unwrap();

@@ -1,9 +1,41 @@
-//! From the study file's words to the records of [`saltus::physics`].
+//! From the study file's words to the records of [`saltus::physics`] and how they are integrated.
 
-use crate::study::{Basis, JumperTable, Law, Modes, Reference, Study};
-use saltus::physics;
+use crate::study::{Basis, Inertia, JumperTable, Law, Method, Modes, Reference, Study};
+use saltus::{hybrid, model, physics};
 
 impl Study {
+    /// The whole physical question.
+    pub fn setup(&self) -> model::Setup {
+        model::Setup {
+            plate: self.plate(),
+            jumpers: self.jumpers(),
+            contact: self.contact_law(),
+            base: self.base(),
+            gravity: self.gravity(),
+            inertia: self.plate.inertia.into(),
+        }
+    }
+
+    /// How it is integrated. The engine counts the switches of all jumpers together.
+    pub fn options(&self) -> hybrid::Options {
+        let (solver, usual) = (&self.solver, hybrid::Options::default());
+        let people = u32::try_from(self.jumper.len()).unwrap_or(u32::MAX).max(1);
+        hybrid::Options {
+            method: match solver.method {
+                Method::Taylor => hybrid::Method::taylor(solver.tolerance),
+                Method::Rk4 => hybrid::Method::Rk4 {
+                    steps_per_period: solver.steps_per_period,
+                },
+            },
+            max_switches: solver.max_switches.saturating_mul(people),
+            // steps that were asked for are not too many; each switch costs one more
+            max_steps: solver
+                .steps_per_period
+                .saturating_mul(2)
+                .max(usual.max_steps),
+        }
+    }
+
     /// The plate, terms and all.
     pub fn plate(&self) -> physics::Plate {
         let plate = &self.plate;
@@ -90,6 +122,15 @@ impl From<Basis> for physics::InPlaneBasis {
     }
 }
 
+impl From<Inertia> for model::Inertia {
+    fn from(inertia: Inertia) -> Self {
+        match inertia {
+            Inertia::Full => Self::Full,
+            Inertia::Condensed => Self::Condensed,
+        }
+    }
+}
+
 impl From<Law> for physics::ContactLaw {
     fn from(law: Law) -> Self {
         match law {
@@ -107,5 +148,30 @@ impl From<Reference> for physics::FrequencyReference {
             Reference::Free => Self::Free,
             Reference::Plate => Self::Plate,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Inertia, Method, Study};
+    use saltus::{hybrid, model};
+
+    #[test]
+    fn the_paper_is_the_librarys_paper() {
+        let mut study = Study::paper();
+        study.plate.inertia = Inertia::Condensed;
+        assert_eq!(study.setup(), model::Setup::dias_del_prado(0.3, 1.0));
+        assert_eq!(study.options(), hybrid::Options::default());
+    }
+
+    #[test]
+    fn limits_leave_room_for_every_jumper_and_every_step() {
+        let mut study = Study::paper();
+        study.jumper = vec![study.jumper[0].clone(); 3];
+        study.solver.method = Method::Rk4;
+        study.solver.steps_per_period = 5_000_000;
+        let options = study.options();
+        assert_eq!(options.max_switches, 300);
+        assert!(options.max_steps > 5_000_000);
     }
 }

@@ -196,9 +196,9 @@ fn jumpers(study: &Study, faults: &mut Vec<Fault>) {
                 faults.push(wrong(&at(name), position, &what));
             }
         }
-        if study.contact.law == Law::RelaxingLeg && jumper.damping_ratio == 0.0 {
-            let what =
-                "contact.law = \"relaxing-leg\" needs a number above 0, else the leg never relaxes";
+        if study.contact.law != Law::ReactionForce && jumper.damping_ratio == 0.0 {
+            let what = "contact.law = \"gap\" or \"relaxing-leg\" needs a number above 0; without damping \
+                        the law is \"reaction-force\"";
             faults.push(wrong(&at("damping_ratio"), jumper.damping_ratio, what));
         }
     }

@@ -122,13 +122,15 @@ impl Guarded {
     }
 
     /// Guards that were zero at the step's start are watched again once they have left zero:
-    /// `at_end(guard)` gives the value at the end and the size of the terms it is the sum of.
-    pub(crate) fn advanced(&mut self, mut at_end: impl FnMut(usize) -> (f64, f64)) {
-        for guard in 0..self.zero.len() {
-            if self.zero[guard] > 0 {
-                let (value, size) = at_end(guard);
-                if value.abs() > LEFT_ZERO * size {
-                    self.zero[guard] = 0;
+    /// `poly(guard, out)` writes the guard's power coefficients in the fraction of the step made.
+    pub(crate) fn advanced(&mut self, degree: usize, mut poly: impl FnMut(usize, &mut [f64])) {
+        for (guard, zero) in self.zero.iter_mut().enumerate() {
+            if *zero > 0 {
+                let mut buffer = [0.0; MAX_DEGREE + 1];
+                let power = &mut buffer[..=degree];
+                poly(guard, power);
+                if has_left_zero(power, *zero) {
+                    *zero = 0;
                 }
             }
         }
@@ -154,6 +156,15 @@ enum Start {
     Right,
     Wrong,
     Never,
+}
+
+/// Whether a zero lies behind at the end of the step: the guard exceeds its rounding, and the residue
+/// of the coefficients known to vanish. After a step of some rounding units it does not.
+fn has_left_zero(power: &[f64], multiplicity: u8) -> bool {
+    let (residue, rest) = power.split_at(usize::from(multiplicity).min(power.len()));
+    let residue: f64 = residue.iter().map(|a| a.abs()).sum();
+    let size = rest.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+    rest.iter().sum::<f64>().abs() > (LEFT_ZERO * size).max(2.0 * residue)
 }
 
 /// Whether a guard is on the wrong side by no more than rounding: it reached zero at the end of the

@@ -145,7 +145,7 @@ pub(crate) fn first_descent(power: &[f64], table: &BernsteinTable) -> Descent {
         // The hull of a piece may reach zero where the polynomial itself does not: halve until an
         // end, which is a value, does.
         let decided = lowest > noise || b[0] <= noise || b[degree] <= noise;
-        let narrow = piece.hi - piece.lo < f64::EPSILON;
+        let narrow = (piece.hi - piece.lo).abs() < f64::EPSILON;
         if lowest >= -noise && (decided || narrow) {
             if piece.hi == 1.0 && b[degree] == 0.0 && b[degree - 1] > 0.0 {
                 out.at = Some(1.0);

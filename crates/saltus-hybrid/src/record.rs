@@ -84,7 +84,7 @@ pub fn record(leg: &Leg, options: &Options) -> Result<Recording, IntegrateError>
     };
     let mut out = None;
     integrate(options, [recorder], &AtomicBool::new(false), |task| {
-        out = Some(task)
+        out = Some(task);
     })?;
     let task = out.ok_or(IntegrateError::Interrupted)?;
     let end = task.end.ok_or(IntegrateError::Interrupted)?;

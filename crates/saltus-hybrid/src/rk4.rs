@@ -83,8 +83,9 @@ fn run_leg<T: Task>(
                     power: &dense,
                 });
             }
-            lane.guarded
-                .advanced(|guard| stepper.size(structure.guards[guard], length));
+            lane.guarded.advanced(HERMITE, |guard, power| {
+                power.copy_from_slice(&stepper.guard(structure.guards[guard], length));
+            });
         }
         let on_grid = firing.is_none_or(|f| f.theta == 1.0);
         let period_ends = on_grid && slot == steps_per_period;
@@ -179,15 +180,6 @@ impl Stepper {
             3.0 * (g1 - g0) - 2.0 * d0 - d1,
             2.0 * (g0 - g1) + d0 + d1,
         ]
-    }
-
-    /// A guard's value at the end of the step, and the size of what it is the sum of.
-    fn size(&self, node: usize, h: f64) -> (f64, f64) {
-        let size = self
-            .guard(node, h)
-            .iter()
-            .fold(0.0, |m: f64, a| m.max(a.abs()));
-        (self.end.of(node)[0], size)
     }
 
     /// Moves a switch from the interpolant's root to the root of the guard along RK4 itself; `x`

@@ -124,9 +124,12 @@ fn product<A: Arith>(arith: A, series: &Series<A::Cell>, pair: (usize, usize), k
     sum
 }
 
+/// Two nodes to multiply.
+type Pair = (usize, usize);
+
 /// Splits a list of pairs into fours and the rest.
 #[inline(always)]
-fn fours(pairs: &[(usize, usize)]) -> (&[[(usize, usize); 4]], &[(usize, usize)]) {
+fn fours(pairs: &[Pair]) -> (&[[Pair; 4]], &[Pair]) {
     pairs.as_chunks::<4>()
 }
 

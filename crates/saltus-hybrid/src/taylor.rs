@@ -300,16 +300,12 @@ impl<T: Task> Ensemble<T> {
         }
         if plan.length > 0.0 {
             let h = plan.length;
-            lane.guarded.advanced(|guard| {
-                let node = structure.guards[guard];
-                let (mut value, mut size, mut scale) = (0.0, 0.0_f64, 1.0);
-                for a in series.of(node) {
-                    let term = a.0[slot] * scale;
-                    value += term;
-                    size = size.max(term.abs());
+            lane.guarded.advanced(self.order, |guard, power| {
+                let mut scale = 1.0;
+                for (out, a) in power.iter_mut().zip(series.of(structure.guards[guard])) {
+                    *out = a.0[slot] * scale;
                     scale *= h;
                 }
-                (value, size)
             });
         }
     }

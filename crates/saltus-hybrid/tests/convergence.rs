@@ -236,7 +236,7 @@ fn dense_error(leg: &Leg, exact: &Orbit, options: &Options) -> f64 {
     };
     let mut worst = f64::NAN;
     integrate(options, [task], &AtomicBool::new(false), |t| {
-        worst = t.worst
+        worst = t.worst;
     })
     .unwrap();
     worst
@@ -556,7 +556,10 @@ fn any_number_of_threads_and_any_order_give_the_same_bits() {
         let alone: Vec<Vec<u64>> = (0..count)
             .map(|id| {
                 let mut out = Vec::new();
-                integrate(&options, [chain(id)], &stop, |t| out = t.seen).unwrap();
+                integrate(&options, [chain(id)], &stop, |t| {
+                    out = t.seen;
+                })
+                .unwrap();
                 assert!(!out.is_empty());
                 out
             })
@@ -625,7 +628,10 @@ fn a_drive_of_minus_a_is_a_shift_of_half_a_period() {
             seen: Vec::new(),
         };
         let mut seen = Vec::new();
-        integrate(&options, [half], &AtomicBool::new(false), |t| seen = t.seen).unwrap();
+        integrate(&options, [half], &AtomicBool::new(false), |t| {
+            seen = t.seen;
+        })
+        .unwrap();
         assert_eq!(seen.len(), 4);
         for (a, b) in seen.iter().zip(&minus.x).take(2) {
             assert!((a - b).abs() < 1e-12, "{seen:?} {:?}", minus.x);

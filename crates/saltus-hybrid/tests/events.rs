@@ -299,7 +299,7 @@ fn watch_all(starts: &[f64]) -> Vec<Watcher> {
     });
     let mut out = Vec::new();
     integrate(&options(METHODS[0]), tasks, &AtomicBool::new(false), |t| {
-        out.push(t)
+        out.push(t);
     })
     .unwrap();
     out.sort_by_key(|t| t.id);

@@ -92,8 +92,8 @@ fn energies(setup: &Setup, periods: u64, control: &Control) -> (Vec<EnergyBalanc
 
 #[test]
 fn energy_is_accounted_for_in_every_period() {
-    // The ledger integrates products of the state outside the error control: at tolerance 1e-12 it
-    // is good to some 1e-11 of the base's work; rounding of the potential energies is below that.
+    // The ledger integrates products of the state outside the error control: at tolerance 1e-12 of h
+    // it is found good to 2e-12 of the base's work; where in-plane modes shorten the step, to 2e-14.
     for law in ContactLaw::ALL {
         for (inertia, periods) in [(Inertia::Condensed, 15), (Inertia::Full, 3)] {
             for setup in [Setup::dias_del_prado(0.2, 1.0), two_people(0.15, 0.95)] {
@@ -103,7 +103,7 @@ fn energy_is_accounted_for_in_every_period() {
                     ..setup
                 };
                 let (energy, relative) = energies(&setup, periods, &taylor(1e-12));
-                assert!(relative < 1e-9, "{law:?} {inertia:?} {relative:e}");
+                assert!(relative < 1e-10, "{law:?} {inertia:?} {relative:e}");
                 for e in &energy {
                     assert!(e.plate > 0.0 && e.dampers >= 0.0, "{e:?}");
                 }
@@ -126,9 +126,35 @@ fn on_a_periodic_orbit_the_base_pays_for_all_losses() {
         "{e:?}"
     );
     assert!((e.base - e.plate - e.legs).abs() < 1e-8 * e.base, "{e:?}");
-    // Under the law of the reaction force springs leave the floor stretched, and never compressed:
-    // the legs take up what their dampers burn less what that costs.
     assert!(e.base > 0.0 && e.plate > 0.0 && e.dampers > 0.0, "{e:?}");
+    // What the legs take up is what their dampers burn and what their springs carry off: compressed
+    // at take-off, d > 0, and stretched at touch-down, d < 0, half k d^2 each.
+    let jumper = model.setup().jumpers[0];
+    let eta = model.scales().jumpers[0].position;
+    let mut carried = 0.0;
+    let mut flights = 0;
+    watch(
+        &model,
+        out.end.point.clone(),
+        1,
+        |_, _| {},
+        |switch| {
+            let (d, force) = leg_of(&model, 0, switch.x);
+            let spring = 0.5 * jumper.stiffness * (d * eta).powi(2);
+            assert!(force.abs() < ROUNDING);
+            if (switch.kind == SwitchKind::Mode { from: 0, to: 1 }) {
+                assert!(d > 0.0);
+                carried += spring;
+                flights += 1;
+            } else {
+                assert!(d < 0.0);
+                carried -= spring;
+            }
+        },
+    );
+    assert_eq!(flights, 1);
+    let difference = (e.legs - e.dampers - carried).abs();
+    assert!(difference < 1e-8 * e.base, "{e:?} {carried}");
 }
 
 #[test]
@@ -136,12 +162,11 @@ fn the_residual_of_rk4_falls_with_its_step() {
     let setup = Setup::dias_del_prado(0.2, 1.0);
     let residual = |steps| energies(&setup, 4, &rk4(steps)).1;
     let (coarse, fine) = (residual(200), residual(400));
-    // order 4; the share of steps cut by a switch differs between the two grids
-    assert!(
-        (10.0..24.0).contains(&(coarse / fine)),
-        "{coarse:e} {fine:e}"
-    );
-    assert!(fine < 1e-6, "{fine:e}");
+    // Order 4 in the motion, but of a free oscillation RK4 takes only h^6/72 of the energy in each
+    // step: order 5. The residual is between the two.
+    let ratio = coarse / fine;
+    assert!((14.0..40.0).contains(&ratio), "{coarse:e} {fine:e}");
+    assert!(fine < 1e-7, "{fine:e}");
 }
 
 #[test]
@@ -172,8 +197,8 @@ fn swapped(list: &[Mode]) -> Vec<Mode> {
 
 #[test]
 fn mirrored_places_and_swapped_axes_give_the_same_motion() {
-    // Rounding differs between the runs and grows over ten periods of a damped motion: 1e-10 covers
-    // the tolerance of 1e-13 and a growth of some hundreds.
+    // Both runs take nearly the same steps: what differs is rounding, grown over twelve periods of a
+    // damped motion to some 1e-14.
     for (inertia, periods) in [(Inertia::Condensed, 12), (Inertia::Full, 2)] {
         let setup = Setup {
             inertia,
@@ -194,8 +219,8 @@ fn mirrored_places_and_swapped_axes_give_the_same_motion() {
         };
         let in_x = run(&jumpers(&|j| at(a - j.x, j.y, j)));
         let in_y = run(&jumpers(&|j| at(j.x, b - j.y, j)));
-        assert!(worst(&original, &in_x, &sign(&|m| m.m % 2 == 1)) < 1e-10);
-        assert!(worst(&original, &in_y, &sign(&|m| m.n % 2 == 1)) < 1e-10);
+        assert!(worst(&original, &in_x, &sign(&|m| m.m % 2 == 1)) < 1e-12);
+        assert!(worst(&original, &in_y, &sign(&|m| m.n % 2 == 1)) < 1e-12);
 
         let mut turned = jumpers(&|j| at(j.y, j.x, j));
         (turned.plate.length, turned.plate.width) = (b, a);
@@ -204,7 +229,7 @@ fn mirrored_places_and_swapped_axes_give_the_same_motion() {
             v: swapped(&setup.plate.modes.u),
             w: swapped(w),
         };
-        assert!(worst(&original, &run(&turned), &vec![1.0; w.len()]) < 1e-10);
+        assert!(worst(&original, &run(&turned), &vec![1.0; w.len()]) < 1e-12);
     }
 }
 
@@ -225,7 +250,7 @@ fn the_order_of_the_people_does_not_matter() {
         section.z.reverse();
         section.v.reverse();
     }
-    assert!(worst(&one, &other, &[1.0; 4]) < 1e-10);
+    assert!(worst(&one, &other, &[1.0; 4]) < 1e-12);
 }
 
 #[test]
@@ -256,7 +281,7 @@ fn people_at_mirrored_places_move_alike() {
             // Each has its own switches, at the same times.
             let mine = |i: usize| out.switches.iter().filter(move |s| s.jumper == i);
             for i in 1..places.len() {
-                if mine(i).count() != mine(0).count() { panic!("{contact:?} {places:?} {:?} {:?}", mine(0).collect::<Vec<_>>(), mine(i).collect::<Vec<_>>()); }
+                assert_eq!(mine(i).count(), mine(0).count());
                 for (a, b) in mine(0).zip(mine(i)) {
                     assert!((a.time - b.time).abs() < 1e-10);
                 }
@@ -345,20 +370,21 @@ fn taylor_and_rk4_agree_after_twenty_periods() {
 
 #[test]
 fn full_and_condensed_share_their_attractor() {
-    let condensed = run(
-        &reference(Inertia::Condensed),
-        (3.0, 2.0),
-        40,
-        &taylor(1e-10),
-    );
-    let full = run(&reference(Inertia::Full), (3.0, 2.0), 40, &taylor(1e-10));
-    // In-plane inertia shifts frequencies by (2.3 Hz/250 Hz)^2 = 8e-5; the orbit by some times that.
-    let last = |t: &Trajectory| t.section.last().unwrap().clone();
-    let (a, b) = (last(&condensed), last(&full));
-    let size = a.z[0].abs().max(a.v[0].abs());
-    let relative = difference(&a, &b, &[1.0; 4]) / size;
-    assert!(relative < 1e-3, "{relative:e}");
-    assert!(relative > 1e-9, "in-plane inertia left out? {relative:e}");
+    // Both settle on the 1T orbit: 120 periods of the plate at 2 % leave 1e-6 of the start.
+    let settle = |inertia| {
+        let out = run(&reference(inertia), (3.0, 2.0), 120, &taylor(1e-8));
+        let [.., before, last] = &out.section[..] else {
+            panic!("no section")
+        };
+        assert!(difference(before, last, &[1.0; 4]) < 1e-4);
+        last.clone()
+    };
+    let (a, b) = (settle(Inertia::Condensed), settle(Inertia::Full));
+    // In-plane inertia adds (2.3 Hz/250 Hz)^2 = 8e-5 to the stretching forces, themselves a part of
+    // the plate's: 1e-5 is expected of the orbit, 4e-6 found, 1e-4 allowed.
+    let relative = difference(&a, &b, &[1.0; 4]) / a.z[0].hypot(a.v[0]);
+    assert!(relative < 1e-4, "{relative:e}");
+    assert!(relative > 1e-7, "in-plane inertia left out? {relative:e}");
 }
 
 // ---------------------------------------------------------------- contact laws
@@ -382,12 +408,10 @@ fn without_damping_all_contact_laws_are_one() {
             worst(&paper, &motion(law, zeta), &[1.0; 4])
         };
         let (far, near) = (apart(1e-2), apart(1e-3));
-        // tenfold, to the next order in zeta_h
-        assert!(
-            (7.0..14.0).contains(&(far / near)),
-            "{law:?} {far:e} {near:e}"
-        );
-        assert!(near < 0.05, "{law:?} {near:e}");
+        // a hundredfold, to the next order in zeta_h
+        let ratio = far / near;
+        assert!((80.0..120.0).contains(&ratio), "{law:?} {far:e} {near:e}");
+        assert!(near < 1e-5, "{law:?} {near:e}");
     }
     let setup = Setup {
         contact: ContactLaw::Gap,
@@ -653,7 +677,8 @@ fn by_hand(out: &Trajectory, transient: usize) -> Vec<(u64, u64)> {
 fn a_sweep_is_its_trajectories_one_after_the_other() {
     // Over damping the units stay; over frequency they change and states are carried in SI units.
     let over_frequency = |ratio| Setup::dias_del_prado(0.2, ratio).model();
-    let models: [(&(dyn Fn(f64) -> Result<Model, ModelError> + Sync), Vec<f64>); 2] = [
+    type ModelAt<'a> = &'a (dyn Fn(f64) -> Result<Model, ModelError> + Sync);
+    let models: [(ModelAt<'_>, Vec<f64>); 2] = [
         (&paper_at, Sweep::linspace(0.1, 0.5, 6)),
         (&over_frequency, Sweep::linspace(0.85, 1.15, 6)),
     ];

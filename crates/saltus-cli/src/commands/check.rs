@@ -20,8 +20,8 @@ struct Report<'a> {
 pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
     let study = super::load(&args.study, &[])?;
     let warnings = warnings(&study);
-    if let Some(out) = &args.output.out {
-        super::folder_with_study(out, &study)?;
+    if let Some(folder) = super::folder(&args.output, &study)? {
+        folder.commit()?;
     }
     let file = args.study.file.display().to_string();
     if args.output.json {

@@ -2,7 +2,6 @@
 
 use crate::args::FrequenciesArgs;
 use crate::exit::Failure;
-use crate::output;
 use saltus::physics::PhysicsError;
 use saltus_config::Study;
 use serde::Serialize;
@@ -28,17 +27,11 @@ struct Frequencies {
 pub(super) fn run(args: &FrequenciesArgs) -> Result<(), Failure> {
     let study = super::load(&args.study, &[])?;
     let found = frequencies(&study).map_err(Failure::computation)?;
-    if let Some(out) = &args.output.out {
-        let folder = super::folder_with_study(out, &study)?;
-        output::write_file(&folder.join("frequencies.json"), &output::json(&found)?)?;
+    if let Some(mut folder) = super::folder(&args.output, &study)? {
+        folder.json("frequencies.json", &found)?;
+        folder.commit()?;
     }
-    if args.output.json {
-        return output::print_json(&found);
-    }
-    if args.output.quiet {
-        return Ok(());
-    }
-    output::print(&table(&found))
+    super::tell(&args.output, &found, || table(&found))
 }
 
 fn frequencies(study: &Study) -> Result<Frequencies, PhysicsError> {

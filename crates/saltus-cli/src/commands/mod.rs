@@ -3,15 +3,19 @@
 mod check;
 mod frequencies;
 mod init;
+mod repeats;
 mod reproduce;
 mod schema;
 mod simulate;
 mod sweep;
 
-use crate::args::{Command, StudyArgs};
+use crate::args::{Command, OutputArgs, StudyArgs, ThreadArgs};
 use crate::exit::Failure;
-use crate::output;
+use crate::folder::Folder;
+use crate::{interrupt, output};
+use saltus::study::Control;
 use saltus_config::Study;
+use serde::Serialize;
 use std::io;
 use std::path::Path;
 
@@ -39,9 +43,41 @@ fn load(args: &StudyArgs, more: &[String]) -> Result<Study, Failure> {
     Ok(study?)
 }
 
-/// The folder of results with the resolved study in it.
-fn folder_with_study(out: &Path, study: &Study) -> Result<std::path::PathBuf, Failure> {
-    let folder = output::folder(out)?;
-    output::write_file(&folder.join("study.toml"), &study.to_toml())?;
-    Ok(folder)
+/// Everything about how a study runs: stepper, threads, Ctrl-C.
+fn control(study: &Study, threads: &ThreadArgs) -> Control {
+    Control {
+        options: study.options(),
+        threads: threads.threads.map_or(0, usize::from),
+        stop: interrupt::flag(),
+        ..Control::default()
+    }
+}
+
+/// The folder of results with the resolved study in it, if one was asked for.
+fn folder(args: &OutputArgs, study: &Study) -> Result<Option<Folder>, Failure> {
+    args.out
+        .as_deref()
+        .map(|out| Folder::stage(out, study))
+        .transpose()
+}
+
+/// One document, or a text for people, or nothing, as asked.
+fn tell(
+    args: &OutputArgs,
+    document: &impl Serialize,
+    text: impl FnOnce() -> String,
+) -> Result<(), Failure> {
+    match (args.json, args.quiet) {
+        (true, _) => output::print_json(document),
+        (false, true) => Ok(()),
+        (false, false) => output::print(&text()),
+    }
+}
+
+/// As the first word of a label.
+fn capitalized(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
 }

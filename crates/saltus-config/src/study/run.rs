@@ -12,7 +12,8 @@ pub struct SolverTable {
     /// Method (a word): "taylor" or "rk4".
     #[garde(skip)]
     pub method: Method,
-    /// Error allowed per step by "taylor", relative to the size of the state (-), such as 1e-10.
+    /// Error allowed per step by "taylor", in plate thicknesses (-), such as 1e-10; relative to the largest
+    /// state once that exceeds one.
     #[garde(range(min = 1e-15, max = 1e-3), custom(finite))]
     #[schemars(extend("x-symbol" = "tol", "x-unit" = "-", "x-label" = "tolerance"))]
     pub tolerance: f64,

@@ -55,7 +55,7 @@ impl SweepTable {
             parameter: "jumper.damping_ratio".to_owned(),
             from: 0.1,
             to: 0.5,
-            count: 401,
+            count: 81,
             direction: Direction::Both,
             transient: default_transient(),
             record: default_record(),

@@ -110,15 +110,15 @@ pub(crate) fn build(
         .map(|g| g / e.transverse_mass * amplitude)
         .collect();
     let elastic = elastic_forces(&mut b, setup, plate, scales, layout);
-    for j in 0..layout.transverse {
+    for (j, &load) in loads.iter().enumerate() {
         let mut terms = vec![
             (
                 -e.bending[j] / (e.transverse_mass * scales.omega.powi(2)),
                 b.state(layout.r(j)),
             ),
             (-damping, b.state(layout.dr(j))),
-            (loads[j], cos),
-            (loads[j] * damping, sin),
+            (load, cos),
+            (load * damping, sin),
         ];
         terms.extend(elastic.transverse[j].map(|node| (-1.0, node)));
         terms.extend(
@@ -236,11 +236,14 @@ fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..n).flat_map(move |k| (0..=k).map(move |j| (j, k)))
 }
 
+/// (j <= k), (l <= m), and the number of orders of (l, m).
+type Split = ((usize, usize), (usize, usize), f64);
+
 /// The distinct ways to split a sorted quadruple into (j <= k) and (l <= m), with the number of
 /// orders of (l, m): the entries of sum_lm Q_jklm R_l R_m for each pair jk.
-fn splits(term: &QuarticTerm) -> Vec<((usize, usize), (usize, usize), f64)> {
+fn splits(term: &QuarticTerm) -> Vec<Split> {
     let q = term.indices();
-    let mut out: Vec<((usize, usize), (usize, usize), f64)> = Vec::new();
+    let mut out: Vec<Split> = Vec::new();
     for (first, second) in [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)] {
         let rest: Vec<usize> = (0..4).filter(|i| *i != first && *i != second).collect();
         let (outer, inner) = ((q[first], q[second]), (q[rest[0]], q[rest[1]]));

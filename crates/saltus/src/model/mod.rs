@@ -190,7 +190,7 @@ impl Setup {
             }],
             contact: ContactLaw::ReactionForce,
             base: Base {
-                amplitude: 0.13 * plate.thickness,
+                amplitude: 0.013, // 0.13 h
                 frequency: BaseFrequency::Ratio {
                     ratio: frequency_ratio,
                     reference: FrequencyReference::Occupied,

@@ -90,7 +90,7 @@ pub fn simulate(
     };
     let mut out = None;
     integrate(&control.options, [task], &control.stop, |task| {
-        out = Some(task.out)
+        out = Some(task.out);
     })?;
     out.ok_or(StudyError::Integrate(
         saltus_hybrid::IntegrateError::Interrupted,

@@ -3,7 +3,7 @@
 use saltus_hybrid::Point;
 
 use super::{Effort, setup};
-use crate::model::{Contact, Inertia, Model};
+use crate::model::{Contact, Inertia, Model, Section};
 use crate::physics::{ContactLaw, FrequencyReference};
 use crate::study::{
     Control, Exponent, StudyError, Trajectory, in_parallel, largest_exponents, recurrence, settle,
@@ -110,9 +110,9 @@ impl CaseResult {
 }
 
 /// Periods run before anything is kept: long, because (g) sits near a period doubling.
-const TRANSIENT: u64 = 2000;
+pub(super) const TRANSIENT: u64 = 2000;
 /// Periods kept in the section, and in the time history.
-const KEPT: u64 = 600;
+pub(super) const KEPT: u64 = 600;
 const HISTORY: u64 = 64;
 /// Points per period of the time history.
 const POINTS: u32 = 240;
@@ -148,37 +148,33 @@ pub fn run_cases(
         simulate(model, start, KEPT, HISTORY, POINTS, control)
     });
     let trajectories = trajectories.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let exponents = largest_exponents(&starts, 0, effort.exponent_periods.1, control)?;
-    let result = |(((case, (model, _)), trajectory), exponent): (
-        ((Case, (Model, Point)), Trajectory),
-        _,
-    )| {
-        let column = |pick: fn(&crate::model::Section) -> f64| -> Vec<f64> {
+    let exponents = largest_exponents(&starts, 0, effort.exponent_periods, control)?;
+    let mut out = Vec::new();
+    for (((case, (model, _)), trajectory), exponent) in cases()
+        .into_iter()
+        .zip(starts)
+        .zip(trajectories)
+        .zip(exponents)
+    {
+        let column = |pick: fn(&Section) -> f64| -> Vec<f64> {
             trajectory.section.iter().map(pick).collect()
         };
         let (z, v) = (column(|s| s.z[0]), column(|s| s.v[0]));
         let contact: f64 = trajectory.contact_ratio.iter().map(|ratio| ratio[0]).sum();
-        let peak = trajectory
-            .history
-            .states
-            .iter()
-            .map(|s| s.prf[0])
-            .fold(0.0, f64::max);
-        CaseResult {
+        out.push(CaseResult {
             case,
             period_seconds: model.scales().period(),
             recurrence: recurrence(&z, &v, 1e-6),
             exponent,
             contact_ratio: contact / trajectory.contact_ratio.len().max(1) as f64,
-            peak_force: peak,
+            peak_force: trajectory
+                .history
+                .states
+                .iter()
+                .map(|s| s.prf[0])
+                .fold(0.0, f64::max),
             trajectory,
-        }
-    };
-    Ok(cases()
-        .into_iter()
-        .zip(starts)
-        .zip(trajectories)
-        .zip(exponents)
-        .map(result)
-        .collect())
+        });
+    }
+    Ok(out)
 }

@@ -54,6 +54,7 @@ pub struct Fact {
 
 /// Value and verdict under one reading of omega_h.
 type Finding = (String, Verdict);
+type Find = fn(&Evidence<'_>) -> Finding;
 
 /// All facts. `occupied` and `free` are the results of [`super::run_cases`] under both readings.
 ///
@@ -73,7 +74,7 @@ pub fn facts(
     {
         stretches.push((diagram, coexistence(diagram, control)?));
     }
-    let claims: [(&str, &str, fn(&Evidence<'_>) -> Finding); 5] = [
+    let claims: [(&str, &str, Find); 5] = [
         (
             "F4",
             "Omega = 0.9: period 2 at small damping, one critical value, period 1 above it (Figs. 2a, 3a, 3b)",
@@ -232,7 +233,7 @@ fn sequence(regimes: &[Regime]) -> Vec<u32> {
 fn range(regimes: &[Regime], period: u32) -> Option<(f64, f64)> {
     let mut with = regimes.iter().filter(|r| r.period == Some(period));
     let first = with.next()?;
-    Some((first.from, with.last().unwrap_or(first).to))
+    Some((first.from, with.next_back().unwrap_or(first).to))
 }
 
 fn f4(evidence: &Evidence<'_>) -> Finding {
@@ -319,7 +320,7 @@ fn in_pairs(result: &CaseResult) -> String {
     let words = result.words();
     let Some(half) = result
         .recurrence
-        .filter(|n| n % 2 == 0)
+        .filter(|&n| n >= 8 && n % 2 == 0)
         .map(|n| n as usize / 2)
     else {
         return words;

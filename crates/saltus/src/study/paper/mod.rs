@@ -34,8 +34,8 @@ pub struct Effort {
     pub full_values: usize,
     /// Periods for that.
     pub full_periods: (u64, u64),
-    /// Transient and averaging periods of an exponent.
-    pub exponent_periods: (u64, u64),
+    /// Periods an exponent is averaged over.
+    pub exponent_periods: u64,
 }
 
 impl Effort {
@@ -48,7 +48,7 @@ impl Effort {
             starts: vec![(3.0, 2.0), (0.0, 0.0), (-2.0, 1.0)],
             full_values: 17,
             full_periods: (150, 50),
-            exponent_periods: (1000, 2000),
+            exponent_periods: 2000,
         }
     }
 
@@ -61,8 +61,26 @@ impl Effort {
             starts: vec![(3.0, 2.0), (0.0, 0.0)],
             full_values: 5,
             full_periods: (40, 20),
-            exponent_periods: (300, 500),
+            exponent_periods: 500,
         }
+    }
+}
+
+impl Effort {
+    /// Periods of all diagrams, for a progress display.
+    pub fn diagram_periods(&self) -> u64 {
+        let passes = 2 * RATIOS.len() * (2 + self.starts.len()) + 2 * RATIOS.len() * 2;
+        (passes * self.values) as u64 * (self.transient + self.record)
+    }
+
+    /// Periods of the cases of Fig. 3 under one reading.
+    pub fn case_periods(&self) -> u64 {
+        8 * (cases::TRANSIENT + cases::KEPT + 2 * self.exponent_periods)
+    }
+
+    /// Periods of the comparison of full and condensed.
+    pub fn inertia_periods(&self) -> u64 {
+        (2 * RATIOS.len() * self.full_values) as u64 * (self.full_periods.0 + self.full_periods.1)
     }
 }
 

@@ -1,0 +1,129 @@
+//! `saltus reproduce`: the paper, figure by figure, with our numbers beside its words.
+
+mod figures;
+mod page;
+mod report;
+mod tables;
+
+use std::time::Instant;
+
+use saltus::hybrid::{Method, Options};
+use saltus::physics::FrequencyReference::{Free, Occupied};
+use saltus::study::paper::{self, CaseResult, Diagram, Effort, InertiaComparison, Misprint};
+use saltus::study::{Control, StudyError};
+use saltus_config::Study;
+
+use crate::args::ReproduceArgs;
+use crate::exit::Failure;
+use crate::folder::Folder;
+use crate::{interrupt, output, progress};
+use report::Report;
+
+/// Everything computed.
+struct Results {
+    effort: Effort,
+    diagrams: Vec<Diagram>,
+    cases: Vec<CaseResult>,
+    facts: Vec<paper::Fact>,
+    misprints: Vec<Misprint>,
+    inertia: InertiaComparison,
+}
+
+pub(super) fn run(args: &ReproduceArgs) -> Result<(), Failure> {
+    let clock = Instant::now();
+    // Staged first: a folder that cannot be written is refused before the work, not after it.
+    let mut folder = Folder::stage(&args.out, &Study::paper())?;
+    let results = compute(args)?;
+    interrupt::check()?;
+    let report = Report::new(&results);
+    page::write(&mut folder, &results, &report)?;
+    folder.commit()?;
+    if args.json {
+        return output::print_json(&report);
+    }
+    if args.quiet {
+        return Ok(());
+    }
+    let seconds = clock.elapsed().as_secs_f64();
+    let page = args.out.join("index.html");
+    output::print(&format!(
+        "{}\nWritten in {seconds:.0} s. Open {}\n",
+        report.text(),
+        page.display()
+    ))
+}
+
+/// Tolerance of the Taylor series: errors near 1e-7 of an orbit, a thousandth of a pixel.
+const TOLERANCE: f64 = 1e-8;
+
+fn compute(args: &ReproduceArgs) -> Result<Results, Failure> {
+    let effort = if args.quick {
+        Effort::quick()
+    } else {
+        Effort::full()
+    };
+    let method = Method::Taylor {
+        tolerance: TOLERANCE,
+        order: 16,
+    };
+    let control = Control {
+        options: Options {
+            method,
+            ..Options::default()
+        },
+        threads: args.threads.threads.map_or(0, usize::from),
+        stop: interrupt::flag(),
+        ..Control::default()
+    };
+    let step = Step {
+        quiet: args.quiet,
+        control: &control,
+    };
+    let diagrams = step.run("Fig. 2", effort.diagram_periods(), || {
+        paper::diagrams(&effort, &control)
+    })?;
+    let case_periods = effort.case_periods();
+    let cases = step.run("Fig. 3", case_periods, || {
+        paper::run_cases(Occupied, &effort, &control)
+    })?;
+    let free = step.run("Fig. 3, free", case_periods, || {
+        paper::run_cases(Free, &effort, &control)
+    })?;
+    let facts = step.run("Facts", 0, || {
+        paper::facts(&diagrams, &cases, &free, &control)
+    })?;
+    let misprints = step.run("Misprints", 0, || paper::misprints(&control))?;
+    let inertia = step.run("Full model", effort.inertia_periods(), || {
+        paper::compare_inertia(&effort, &control)
+    })?;
+    Ok(Results {
+        effort,
+        diagrams,
+        cases,
+        facts,
+        misprints,
+        inertia,
+    })
+}
+
+/// One stage of the work with its progress.
+struct Step<'a> {
+    quiet: bool,
+    control: &'a Control,
+}
+
+impl Step<'_> {
+    fn run<T>(
+        &self,
+        what: &str,
+        periods: u64,
+        work: impl FnOnce() -> Result<T, StudyError>,
+    ) -> Result<T, Failure> {
+        self.control
+            .done
+            .store(0, std::sync::atomic::Ordering::Relaxed);
+        let result = progress::follow(periods, what, self.quiet, &self.control.done, work)?;
+        interrupt::check()?;
+        Ok(result)
+    }
+}

@@ -1,0 +1,142 @@
+//! The figures of a run: phase portrait and time history of each jumper.
+
+use super::{Run, flights};
+use crate::exit::Failure;
+use crate::folder::Folder;
+use crate::per_jumper::{PANELS, panel_title};
+use saltus_results::{Axis, Curves, Figure, History, Panel, Portrait};
+
+pub(super) fn write(folder: &mut Folder, run: &Run) -> Result<(), Failure> {
+    if run.jumpers() == 0 {
+        return folder.figure("section", &amplitudes(run));
+    }
+    folder.figure("portrait", &portraits(run))?;
+    folder.figure("history", &histories(run))
+}
+
+/// Said in each title, because a figure leaves its folder.
+fn setting(run: &Run) -> String {
+    let hertz = run.model.scales().omega / std::f64::consts::TAU;
+    match run.study.jumper.as_slice() {
+        [one] => format!("ζ_h = {}, base {hertz:.4} Hz", one.damping_ratio),
+        _ => format!("base {hertz:.4} Hz"),
+    }
+}
+
+/// What the time history covers; less than a period of it counts as one.
+fn covered(run: &Run) -> String {
+    let points = run.trajectory.history.time.len();
+    match points.div_ceil(super::POINTS as usize) {
+        1 => "last period".to_owned(),
+        periods => format!("last {periods} periods"),
+    }
+}
+
+fn portraits(run: &Run) -> Figure {
+    let title = format!("Phase portrait: {}, {}", setting(run), covered(run));
+    let shown = run.jumpers().min(PANELS);
+    if shown == 1 {
+        return Figure::new(portrait(run, 0, &title)).plot_size(620.0, 460.0);
+    }
+    let panels = (0..shown).map(|i| portrait(run, i, &panel_title(i, run.jumpers())));
+    Figure::grid(2, panels).title(title)
+}
+
+fn portrait(run: &Run, jumper: usize, title: &str) -> Panel {
+    let states = &run.trajectory.history.states;
+    let of = |value: fn(&saltus::model::Observation) -> &Vec<f64>| -> Vec<f64> {
+        states.iter().map(|state| value(state)[jumper]).collect()
+    };
+    let flying: Vec<bool> = of(|s| &s.prf).iter().map(|&force| force == 0.0).collect();
+    let section = &run.trajectory.section;
+    let kept = section.get(run.transient()..).unwrap_or_default();
+    let z: Vec<f64> = kept.iter().map(|point| point.z[jumper]).collect();
+    let v: Vec<f64> = kept.iter().map(|point| point.v[jumper]).collect();
+    let seen = format!(
+        "At cos Ωt = 1, periods {} to {}",
+        run.transient() + 1,
+        section.len()
+    );
+    Portrait::new(
+        title,
+        Axis::new("Height z/η (-)"),
+        Axis::new("Velocity ż/(η ω_h) (-)"),
+    )
+    .marked_path(("Contact", "Flight"), of(|s| &s.z), of(|s| &s.v), &flying)
+    .points(seen, z, v)
+    .into()
+}
+
+fn histories(run: &Run) -> Figure {
+    let title = format!("Time history: {}, {}", setting(run), covered(run));
+    let shown = run.jumpers().min(PANELS);
+    let mut panels: Vec<Panel> = Vec::new();
+    for jumper in 0..shown {
+        panels.extend([force(run, jumper), heights(run, jumper)]);
+    }
+    Figure::grid(1, panels).title(title).plot_size(820.0, 230.0)
+}
+
+fn history(run: &Run, jumper: usize, y: &str) -> History {
+    let from = run.trajectory.history.time.first().copied();
+    History::new(
+        panel_title(jumper, run.jumpers()),
+        Axis::new("Time t (s)"),
+        Axis::new(y),
+    )
+    .shade("Flight", &flights::of(run, jumper, from.unwrap_or(0.0)))
+}
+
+fn force(run: &Run, jumper: usize) -> Panel {
+    let history_of = &run.trajectory.history;
+    let force: Vec<f64> = history_of.states.iter().map(|s| s.prf[jumper]).collect();
+    history(run, jumper, "Reaction force/weight (-)")
+        .curve("Plate reaction force", &history_of.time[..], force)
+        .level("Body weight", 1.0)
+        .into()
+}
+
+fn heights(run: &Run, jumper: usize) -> Panel {
+    let eta = run.model.scales().jumpers[jumper].position;
+    let history_of = &run.trajectory.history;
+    let states = &history_of.states;
+    let body: Vec<f64> = states.iter().map(|s| s.z[jumper] * eta).collect();
+    let floor: Vec<f64> = states.iter().map(|s| s.floor[jumper]).collect();
+    history(run, jumper, "Height (m)")
+        // the legend is common, so the colour of the force means the force
+        .curve("", [], [])
+        .curve("Body z", &history_of.time[..], body)
+        .curve("Floor under the feet", &history_of.time[..], floor)
+        .into()
+}
+
+/// The empty plate has no body to follow: its amplitudes, once per period.
+fn amplitudes(run: &Run) -> Figure {
+    let skipped = run.transient();
+    let section = &run.trajectory.section;
+    let kept = section.get(skipped..).unwrap_or_default();
+    let periods: Vec<f64> = (1..=kept.len()).map(|i| (skipped + i) as f64).collect();
+    let curves = Curves::new(
+        format!("Empty plate, once per forcing period: {}", setting(run)),
+        Axis::new("Forcing period (-)"),
+        Axis::new("Amplitude r/h (-)"),
+    );
+    let terms = run
+        .model
+        .setup()
+        .plate
+        .modes
+        .w
+        .iter()
+        .take(PANELS)
+        .enumerate();
+    let curves = terms.fold(curves, |curves, (j, term)| {
+        let values: Vec<f64> = kept.iter().map(|point| point.w[j]).collect();
+        curves.line(
+            format!("Term ({}, {})", term.m, term.n),
+            &periods[..],
+            values,
+        )
+    });
+    Figure::new(curves)
+}
