@@ -12,6 +12,12 @@ pub(crate) enum Op {
         constant: usize,
         terms: (usize, usize),
     },
+    /// out, out + 1, ... = rows of a matrix times the same nodes; `weights` are coefficients by rows.
+    Matrix {
+        out: usize,
+        weights: (usize, usize),
+        nodes: (usize, usize),
+    },
     /// out = sum of products.
     Dot { out: usize, pairs: (usize, usize) },
     /// out, out + 1, ... = one product each.
@@ -90,6 +96,21 @@ impl Structure {
                         terms,
                     });
                     out.nodes += 1;
+                }
+                RawOp::Matrix { weights, nodes } => {
+                    let start = out.terms.len();
+                    for &node in nodes {
+                        let node = out.flat(node)?;
+                        out.terms.push(node);
+                    }
+                    let rows = op.nodes();
+                    let nodes = (start, out.terms.len());
+                    out.ops.push(Op::Matrix {
+                        out: out.nodes,
+                        weights: *weights,
+                        nodes,
+                    });
+                    out.nodes += rows;
                 }
                 RawOp::Dot(list) => {
                     let pairs = out.multiply(list)?;
@@ -214,6 +235,14 @@ impl Structure {
         for (index, op) in self.ops.iter().enumerate().rev() {
             let (is_needed, terms, pairs) = match op {
                 Op::Linear { out, terms, .. } => (nodes[*out], *terms, (0, 0)),
+                Op::Matrix {
+                    out,
+                    weights,
+                    nodes: columns,
+                } => {
+                    let rows = (weights.1 - weights.0) / (columns.1 - columns.0);
+                    (nodes[*out..*out + rows].contains(&true), *columns, (0, 0))
+                }
                 Op::Dot { out, pairs } => (nodes[*out], (0, 0), *pairs),
                 Op::Products { out, pairs } => (
                     nodes[*out..*out + pairs.1 - pairs.0].contains(&true),

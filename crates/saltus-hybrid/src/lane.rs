@@ -71,6 +71,11 @@ impl<T: Task> Lane<T> {
         self.period as f64 * self.system.period + self.time
     }
 
+    /// Time left in the period.
+    pub(crate) fn left(&self) -> f64 {
+        self.system.period - self.time
+    }
+
     /// Whether nothing is left to run.
     pub(crate) fn is_over(&self) -> bool {
         self.period >= self.periods

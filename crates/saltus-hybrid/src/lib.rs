@@ -6,6 +6,7 @@
 mod arith;
 mod compile;
 mod event;
+mod kernel;
 mod lane;
 mod parallel;
 mod polynomial;

@@ -45,11 +45,6 @@ impl<C: Copy + Default> Series<C> {
         &mut self.forward[node * (self.order + 1)..(node + 1) * (self.order + 1)]
     }
 
-    /// Whether it was made without a structure.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.forward.is_empty()
-    }
-
     /// Its value at the point of expansion.
     #[inline(always)]
     pub(crate) fn value(&mut self, node: usize) -> &mut C {
@@ -133,6 +128,30 @@ fn fours(pairs: &[Pair]) -> (&[[Pair; 4]], &[Pair]) {
     pairs.as_chunks::<4>()
 }
 
+/// Order k of four rows of a matrix at once: each node is loaded for four multiply-adds.
+#[inline(always)]
+fn four_rows<A: Arith>(
+    arith: A,
+    series: &Series<A::Cell>,
+    rows: &[A::Cell],
+    nodes: &[usize],
+    k: usize,
+) -> [A::V; 4] {
+    let n = nodes.len();
+    let (first, second) = rows.split_at(2 * n);
+    let ((c0, c1), (c2, c3)) = (first.split_at(n), second.split_at(n));
+    let [mut s0, mut s1, mut s2, mut s3] = [arith.splat(0.0); 4];
+    let weights = c0.iter().zip(c1).zip(c2.iter().zip(c3));
+    for (((c0, c1), (c2, c3)), &node) in weights.zip(nodes) {
+        let x = arith.load(series.get(node, k));
+        s0 = arith.mul_add(arith.load(c0), x, s0);
+        s1 = arith.mul_add(arith.load(c1), x, s1);
+        s2 = arith.mul_add(arith.load(c2), x, s2);
+        s3 = arith.mul_add(arith.load(c3), x, s3);
+    }
+    [s0, s1, s2, s3]
+}
+
 /// Order k of operation `index`.
 #[inline(always)]
 fn operation<A: Arith>(
@@ -168,6 +187,32 @@ fn operation<A: Arith>(
                 even = term(c, *node, even);
             }
             series.set(*out, k, arith.store(arith.add(even, odd)));
+        }
+        Op::Matrix {
+            out,
+            weights,
+            nodes,
+        } => {
+            let nodes = &structure.terms[nodes.0..nodes.1];
+            let weights = &coefficients[weights.0..weights.1];
+            let n = nodes.len();
+            let fours = weights.chunks_exact(4 * n);
+            let rest = fours.remainder();
+            let mut out = *out;
+            for four in fours {
+                for value in four_rows(arith, series, four, nodes, k) {
+                    series.set(out, k, arith.store(value));
+                    out += 1;
+                }
+            }
+            for row in rest.chunks_exact(n) {
+                let mut sum = arith.splat(0.0);
+                for (c, &node) in row.iter().zip(nodes) {
+                    sum = arith.mul_add(arith.load(c), arith.load(series.get(node, k)), sum);
+                }
+                series.set(out, k, arith.store(sum));
+                out += 1;
+            }
         }
         Op::Dot { out, pairs } => {
             let (fours, rest) = fours(&structure.pairs[pairs.0..pairs.1]);

@@ -252,9 +252,27 @@ pub struct SystemBuilder {
 
 #[derive(Clone, Debug)]
 pub(crate) enum RawOp {
-    Linear { constant: usize, terms: Vec<Node> },
+    Linear {
+        constant: usize,
+        terms: Vec<Node>,
+    },
+    Matrix {
+        weights: (usize, usize),
+        nodes: Vec<Node>,
+    },
     Dot(Vec<(Node, Node)>),
     Products(Vec<(Node, Node)>),
+}
+
+impl RawOp {
+    /// How many nodes it makes.
+    pub(crate) fn nodes(&self) -> usize {
+        match self {
+            Self::Linear { .. } | Self::Dot(_) => 1,
+            Self::Products(list) => list.len(),
+            Self::Matrix { weights, nodes } => (weights.1 - weights.0) / nodes.len(),
+        }
+    }
 }
 
 impl SystemBuilder {
@@ -297,10 +315,7 @@ impl SystemBuilder {
 
     fn push(&mut self, op: RawOp) -> Node {
         let node = Node::Op(self.nodes);
-        self.nodes += match &op {
-            RawOp::Products(list) => list.len(),
-            RawOp::Linear { .. } | RawOp::Dot(_) => 1,
-        };
+        self.nodes += op.nodes();
         self.ops.push(op);
         node
     }
@@ -313,6 +328,28 @@ impl SystemBuilder {
         }
         let terms = terms.iter().map(|&(_, node)| node).collect();
         self.push(RawOp::Linear { constant, terms })
+    }
+
+    /// A matrix times `nodes`, one node per row: the same as one [`Self::linear`] for each row, and
+    /// faster where few entries are zero.
+    ///
+    /// # Panics
+    /// If a row is not as long as `nodes`.
+    pub fn matrix(&mut self, nodes: &[Node], rows: &[Vec<f64>]) -> Vec<Node> {
+        let start = self.coefficients.len();
+        for row in rows {
+            assert_eq!(row.len(), nodes.len());
+            self.coefficients.extend(row);
+        }
+        let first = self.nodes;
+        if start < self.coefficients.len() {
+            let weights = (start, self.coefficients.len());
+            self.push(RawOp::Matrix {
+                weights,
+                nodes: nodes.to_vec(),
+            });
+        }
+        (first..self.nodes).map(Node::Op).collect()
     }
 
     /// Sum of products of two nodes each.

@@ -211,9 +211,7 @@ fn elastic_forces(
             }
         }
     }
-    let tension: HashMap<(usize, usize), Node> = pairs(n)
-        .filter_map(|pair| tension.get(&pair).map(|terms| (pair, b.linear(0.0, terms))))
-        .collect();
+    let tension = tension_nodes(b, &tension, n);
     let transverse = (0..n)
         .map(|j| {
             let products: Vec<_> = (0..n)
@@ -231,13 +229,50 @@ fn elastic_forces(
     }
 }
 
+/// One node per T_jk that is not zero: as a matrix where that is mostly full, else as sums.
+fn tension_nodes(
+    b: &mut SystemBuilder,
+    tension: &HashMap<Pair, Vec<(f64, Node)>>,
+    n: usize,
+) -> HashMap<Pair, Node> {
+    let present: Vec<(Pair, &Vec<(f64, Node)>)> = pairs(n)
+        .filter_map(|pair| Some((pair, tension.get(&pair)?)))
+        .collect();
+    let mut nodes: Vec<Node> = Vec::new();
+    for (_, node) in present.iter().flat_map(|(_, terms)| terms.iter()) {
+        if !nodes.contains(node) {
+            nodes.push(*node);
+        }
+    }
+    let entries: usize = present.iter().map(|(_, terms)| terms.len()).sum();
+    if 2 * entries < present.len() * nodes.len() {
+        return present
+            .into_iter()
+            .map(|(pair, terms)| (pair, b.linear(0.0, terms)))
+            .collect();
+    }
+    let row = |terms: &[(f64, Node)]| -> Vec<f64> {
+        let entry = |node: &Node| terms.iter().filter(|t| t.1 == *node).map(|t| t.0).sum();
+        nodes.iter().map(entry).collect()
+    };
+    let rows: Vec<Vec<f64>> = present.iter().map(|(_, terms)| row(terms)).collect();
+    present
+        .iter()
+        .map(|(pair, _)| *pair)
+        .zip(b.matrix(&nodes, &rows))
+        .collect()
+}
+
+/// A pair of transverse indices, the smaller first.
+type Pair = (usize, usize);
+
 /// j <= k < n, in a fixed order.
 fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..n).flat_map(move |k| (0..=k).map(move |j| (j, k)))
 }
 
 /// (j <= k), (l <= m), and the number of orders of (l, m).
-type Split = ((usize, usize), (usize, usize), f64);
+type Split = (Pair, Pair, f64);
 
 /// The distinct ways to split a sorted quadruple into (j <= k) and (l <= m), with the number of
 /// orders of (l, m): the entries of sum_lm Q_jklm R_l R_m for each pair jk.

@@ -40,7 +40,7 @@ pub(super) struct MisprintRow {
 pub(super) struct Inertia {
     /// Motions compared.
     pub(super) compared: usize,
-    /// Periodic in both models, with the same period.
+    /// On the same periodic attractor in both models.
     pub(super) periodic: usize,
     /// Largest difference of these, in eta.
     pub(super) largest_difference_eta: f64,
@@ -136,7 +136,7 @@ impl Report {
         }
         let i = &self.full_against_condensed;
         out += &format!(
-            "\nFull against condensed model: {} of {} motions periodic in both, at most {:.1e} eta apart\n",
+            "\nFull against condensed model: {} of {} motions on the same periodic attractor, at most {:.1e} eta apart\n",
             i.periodic, i.compared, i.largest_difference_eta
         );
         out

@@ -155,12 +155,12 @@ pub struct Coexistence {
 }
 
 /// Periods more to run before two motions are called different attractors.
-const CONFIRM: u64 = 2000;
+const CONFIRM: u64 = 1000;
 
 /// Where two passes of a diagram end on different attractors, at least one of them periodic.
 ///
 /// Near a bifurcation two passes differ for a long time because transients die slowly; so each pair
-/// that differs is run on for 2000 periods and compared again.
+/// that differs is run on for 1000 periods and compared again.
 ///
 /// # Errors
 /// [`StudyError`] if there is no model of the paper's plate, or when stopped.

@@ -367,17 +367,10 @@ fn f7(evidence: &Evidence<'_>) -> Finding {
 }
 
 fn f8(evidence: &Evidence<'_>) -> Finding {
-    let name = |n: Option<u32>| n.map_or_else(|| "non-periodic".into(), |n| format!("{n}T"));
-    let mut found = Vec::new();
+    let mut found: Vec<(f64, &Coexistence)> = Vec::new();
     for (diagram, stretches) in evidence.coexistence {
         if diagram.law == ContactLaw::ReactionForce && diagram.reference == evidence.reference {
-            found.extend(stretches.iter().map(|c| {
-                let (a, b) = (name(c.periods.0), name(c.periods.1));
-                format!(
-                    "Omega = {:.1}, zeta_h = {:.3}-{:.3} ({a} and {b})",
-                    diagram.ratio, c.from, c.to
-                )
-            }));
+            found.extend(stretches.iter().map(|c| (diagram.ratio, c)));
         }
     }
     if found.is_empty() {
@@ -386,8 +379,22 @@ fn f8(evidence: &Evidence<'_>) -> Finding {
             Verdict::NotReproduced,
         );
     }
-    (
-        format!("two attractors at {}", found.join("; ")),
-        Verdict::Reproduced,
-    )
+    found.sort_by(|a, b| (b.1.to - b.1.from).total_cmp(&(a.1.to - a.1.from)));
+    let name = |n: Option<u32>| n.map_or_else(|| "non-periodic".into(), |n| format!("{n}T"));
+    let words = |(ratio, c): &(f64, &Coexistence)| {
+        let (a, b) = (name(c.periods.0), name(c.periods.1));
+        format!(
+            "Omega = {ratio:.1}, zeta_h = {:.3}-{:.3} ({a} and {b} at the first)",
+            c.from, c.to
+        )
+    };
+    let longest: Vec<String> = found.iter().take(LONGEST).map(words).collect();
+    let mut value = format!("two attractors at {}", longest.join("; "));
+    if found.len() > LONGEST {
+        let _ = write!(value, "; and {} shorter stretches", found.len() - LONGEST);
+    }
+    (value, Verdict::Reproduced)
 }
+
+/// Stretches of coexistence named in the table.
+const LONGEST: usize = 3;

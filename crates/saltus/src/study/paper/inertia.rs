@@ -18,8 +18,8 @@ pub struct InertiaRow {
     pub full: (Vec<f64>, Vec<f64>),
     /// Section of the condensed model.
     pub condensed: (Vec<f64>, Vec<f64>),
-    /// Largest difference of the two sections in eta, where both repeat after the same number of
-    /// periods; chaotic motions have none to compare.
+    /// Largest difference of the two sections in eta, where both are on the same periodic attractor;
+    /// chaotic motions have none to compare.
     pub difference: Option<f64>,
     /// Contact ratio of both.
     pub contact_ratio: (f64, f64),
@@ -32,7 +32,7 @@ pub struct InertiaComparison {
     pub rows: Vec<InertiaRow>,
     /// Largest difference among periodic motions, in eta.
     pub largest: f64,
-    /// How many were periodic in both.
+    /// How many were on the same periodic attractor in both.
     pub periodic: usize,
 }
 
@@ -89,22 +89,38 @@ fn compare(ratio: f64, full: &SweepRow, condensed: &SweepRow) -> InertiaRow {
             row.v.first().cloned().unwrap_or_default(),
         )
     };
-    let period = |(z, v): &(Vec<f64>, Vec<f64>)| recurrence(z, v, 1e-3);
     let (a, b) = (section(full), section(condensed));
     let ended = full.status == Ok(Status::Completed) && condensed.status == Ok(Status::Completed);
-    let comparable = ended && period(&a).is_some() && period(&a) == period(&b);
-    let gap = |a: &[f64], b: &[f64]| {
-        a.iter()
-            .zip(b)
-            .fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()))
-    };
     let contact = |row: &SweepRow| row.contact_ratio.first().copied().unwrap_or(f64::NAN);
     InertiaRow {
         ratio,
         damping_ratio: full.value,
-        difference: comparable.then(|| gap(&a.0, &b.0).max(gap(&a.1, &b.1))),
+        difference: if ended { difference(&a, &b) } else { None },
         contact_ratio: (contact(full), contact(condensed)),
         full: a,
         condensed: b,
     }
+}
+
+/// Two orbits further apart than this (in eta) are different attractors, which a chaotic transient
+/// chooses between, and no measure of the models' difference.
+const SAME_ATTRACTOR: f64 = 0.1;
+
+/// Largest distance of two orbits of equal period, in the phase in which they agree best.
+fn difference(a: &(Vec<f64>, Vec<f64>), b: &(Vec<f64>, Vec<f64>)) -> Option<f64> {
+    let n = recurrence(&a.0, &a.1, 1e-3)?;
+    if recurrence(&b.0, &b.1, 1e-3) != Some(n) {
+        return None;
+    }
+    let n = n as usize;
+    let gap = |shift: usize| {
+        (0..n).fold(0.0, |m: f64, i| {
+            let j = (i + shift) % n;
+            m.max((a.0[i] - b.0[j]).abs()).max((a.1[i] - b.1[j]).abs())
+        })
+    };
+    (0..n)
+        .map(gap)
+        .min_by(f64::total_cmp)
+        .filter(|&gap| gap < SAME_ATTRACTOR)
 }
