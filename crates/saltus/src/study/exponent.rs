@@ -15,7 +15,7 @@ pub struct Exponent {
     /// Mean growth rate per forcing period (-): positive for chaos, zero for a torus or at a
     /// bifurcation, negative for a periodic orbit.
     pub per_period: f64,
-    /// Standard error of the mean over ten batches.
+    /// Standard error of the mean over twenty batches.
     pub standard_error: f64,
 }
 
@@ -32,7 +32,7 @@ impl Exponent {
 
 /// Distance of the neighbour, in the model's units (of order 1 for the motion itself).
 const DISTANCE: f64 = 1e-7;
-const BATCHES: usize = 10;
+const BATCHES: usize = 20;
 
 /// The exponent over `periods` periods for each (model, start), after `transient` periods. `None`
 /// where the trajectory ended early.

@@ -87,9 +87,7 @@ fn compute(args: &ReproduceArgs) -> Result<Results, Failure> {
     let free = step.run("Fig. 3, free", case_periods, || {
         paper::run_cases(Free, &effort, &control)
     })?;
-    let facts = step.run("Facts", 0, || {
-        paper::facts(&diagrams, &cases, &free, &control)
-    })?;
+    let facts = step.run("Facts", 0, || paper::facts(&diagrams, &cases, &free, &fast))?;
     let misprints = step.run("Misprints", 0, || paper::misprints(&control))?;
     let inertia = step.run("Full model", effort.inertia_periods(), || {
         paper::compare_inertia(&effort, &control)

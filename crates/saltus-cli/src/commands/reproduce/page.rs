@@ -28,7 +28,7 @@ pub(super) fn write(
          run? This page repeats every figure and statement of Dias & Del Prado, Human-Structure \
          Interaction during jumping on Rectangular Plates, with our numbers beside their words.",
     ]);
-    statements(&mut album, results);
+    statements(&mut album, results, report);
     fig2(&mut album, results)?;
     fig3(&mut album, results)?;
     ambiguities(&mut album, results, report)?;
@@ -86,21 +86,22 @@ impl Album<'_> {
     }
 }
 
-fn statements(album: &mut Album<'_>, results: &Results) {
+fn statements(album: &mut Album<'_>, results: &Results, report: &Report) {
     album.section("Statement by statement");
     let facts: Vec<Fact> = results
         .facts
         .iter()
-        .map(|fact| Fact {
-            name: fact.id.into(),
-            claim: fact.claim.into(),
-            value: fact.value.clone(),
+        .zip(&report.facts)
+        .map(|(fact, row)| Fact {
+            name: row.id.into(),
+            claim: row.claim.clone(),
+            value: row.value.clone(),
             verdict: match fact.verdict {
                 Verdict::Reproduced => Badge::Reproduced,
                 Verdict::Departure => Badge::Departure,
                 Verdict::NotReproduced => Badge::NotReproduced,
             },
-            reading: fact.reading.clone(),
+            reading: row.reading.clone(),
         })
         .collect();
     album.with(|page| {
@@ -178,11 +179,11 @@ fn fig3(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
 fn ambiguities(album: &mut Album<'_>, results: &Results, report: &Report) -> Result<(), Failure> {
     album.section("Where the paper is ambiguous");
     album.say(&[
-        "The paper drives the plate at 0.9, 1.0 and 1.1 omega_h without saying which omega_h: that of the body \
+        "The paper drives the plate at 0.9, 1.0 and 1.1 ω_h without saying which ω_h: that of the body \
          on the flexible plate (occupied, 2.5373 Hz) or on rigid ground (free, 2.4794 Hz). The figure above \
          takes the first; here is the second.",
     ]);
-    let caption = "Fig. 2 again, with omega_h the body's frequency on rigid ground: the thresholds move, and \
+    let caption = "Fig. 2 again, with ω_h the body's frequency on rigid ground: the thresholds move, and \
                    what the paper says at 0.32 and 0.36 no longer holds.";
     album.show(
         "fig2-free",
@@ -194,7 +195,7 @@ fn ambiguities(album: &mut Album<'_>, results: &Results, report: &Report) -> Res
         let rows = report
             .misprints
             .iter()
-            .map(|m| [m.place, m.printed, m.used, m.effect.as_str()]);
+            .map(|m| [&m.place, &m.printed, &m.used, &m.effect].map(String::as_str));
         page.subsection("Misprints and gaps, with the size of their effect")
             .table(&["Where", "Printed", "Used here", "Effect"], rows)
     });
@@ -228,7 +229,7 @@ fn beyond(album: &mut Album<'_>, results: &Results, report: &Report) -> Result<(
     let i = &report.full_against_condensed;
     let caption = format!(
         "All 17 degrees of freedom (in-plane modes at 253 to 1344 Hz) against 5, the in-plane motion following \
-         statically. Of {} motions from the same start {} end on the same periodic attractor, at most {:.1e} eta \
+         statically. Of {} motions from the same start {} end on the same periodic attractor, at most {:.1e} η \
          apart. The others are chaotic, or a chaotic transient took them to another attractor; all contact \
          ratios differ by at most {:.3}.",
         i.compared, i.periodic, i.largest_difference_eta, i.largest_contact_ratio_difference
@@ -272,7 +273,7 @@ fn method(album: &mut Album<'_>, results: &Results) {
                   allow 1e-7 of the plate thickness per step, the named motions 1e-10. Figures 2 and 3 use the \
                   condensed model.";
     let exponents = format!(
-        "Exponents: two trajectories 1e-7 apart over {} periods, standard error from ten batches.",
+        "Exponents: two trajectories 1e-7 apart over {} periods, standard error from twenty batches.",
         effort.exponent_periods
     );
     let version = format!("saltus {}", env!("CARGO_PKG_VERSION"));

@@ -22,7 +22,7 @@ pub(super) struct Report {
 #[derive(Serialize)]
 pub(super) struct FactRow {
     pub(super) id: &'static str,
-    pub(super) claim: &'static str,
+    pub(super) claim: String,
     pub(super) value: String,
     pub(super) verdict: &'static str,
     pub(super) reading: String,
@@ -30,9 +30,9 @@ pub(super) struct FactRow {
 
 #[derive(Serialize)]
 pub(super) struct MisprintRow {
-    pub(super) place: &'static str,
-    pub(super) printed: &'static str,
-    pub(super) used: &'static str,
+    pub(super) place: String,
+    pub(super) printed: String,
+    pub(super) used: String,
     pub(super) effect: String,
 }
 
@@ -77,6 +77,22 @@ pub(super) struct RegimeRow {
     pub(super) to: f64,
 }
 
+/// Symbols for the names that plain text gives them.
+pub(super) fn symbols(text: &str) -> String {
+    [
+        ("omega_h", "ω_h"),
+        ("zeta_h", "ζ_h"),
+        ("Omega", "Ω"),
+        ("psi", "ψ"),
+        (" eta", " η"),
+        ("+-", "±"),
+    ]
+    .into_iter()
+    .fold(text.to_owned(), |text, (name, symbol)| {
+        text.replace(name, symbol)
+    })
+}
+
 impl Report {
     pub(super) fn new(results: &Results) -> Self {
         let contact = |row: &saltus::study::paper::InertiaRow| {
@@ -91,20 +107,20 @@ impl Report {
                 .iter()
                 .map(|fact| FactRow {
                     id: fact.id,
-                    claim: fact.claim,
-                    value: fact.value.clone(),
+                    claim: symbols(fact.claim),
+                    value: symbols(&fact.value),
                     verdict: fact.verdict.words(),
-                    reading: fact.reading.clone(),
+                    reading: symbols(&fact.reading),
                 })
                 .collect(),
             misprints: results
                 .misprints
                 .iter()
                 .map(|m| MisprintRow {
-                    place: m.place,
-                    printed: m.printed,
-                    used: m.used,
-                    effect: m.effect.clone(),
+                    place: symbols(m.place),
+                    printed: symbols(m.printed),
+                    used: symbols(m.used),
+                    effect: symbols(&m.effect),
                 })
                 .collect(),
             full_against_condensed: Inertia {
@@ -146,11 +162,13 @@ impl Report {
     pub(super) fn markdown(&self) -> String {
         let mut facts = MarkdownTable::new(&["", "Claim", "Ours", "Verdict", "Reading"]);
         for f in &self.facts {
-            facts = facts.row([f.id, f.claim, &f.value, f.verdict, &f.reading].map(Value::from));
+            facts = facts.row([f.id, &f.claim, &f.value, f.verdict, &f.reading].map(Value::from));
         }
         let mut misprints = MarkdownTable::new(&["Where", "Printed", "Used here", "Effect"]);
         for m in &self.misprints {
-            misprints = misprints.row([m.place, m.printed, m.used, &m.effect].map(Value::from));
+            misprints = misprints.row(
+                [&m.place, &m.printed, &m.used, &m.effect].map(|text| Value::from(text.as_str())),
+            );
         }
         format!(
             "# {}\n\n## Facts\n\n{facts}\n## Misprints and gaps\n\n{misprints}",

@@ -33,7 +33,7 @@ pub struct Diagram {
 const SAME: f64 = 1e-3;
 
 /// All diagrams: the paper's law under both readings with every pass, the other two laws under the
-/// occupied reading with the up- and down-sweep.
+/// occupied reading with the up- and down-sweep, on their own coarser grid.
 ///
 /// # Errors
 /// [`StudyError`] if there is no model of the paper's plate, or when stopped.
@@ -78,11 +78,13 @@ pub fn diagrams(effort: &Effort, control: &Control) -> Result<Vec<Diagram>, Stud
 
 fn sweep_of(effort: &Effort, law: ContactLaw) -> Sweep {
     let mut passes = vec![Pass::Up, Pass::Down];
+    let mut values = effort.law_values;
     if law == ContactLaw::ReactionForce {
+        values = effort.values;
         passes.extend(effort.starts.iter().map(|&(z, v)| Pass::Start { z, v }));
     }
     Sweep {
-        values: Sweep::linspace(0.1, 0.5, effort.values),
+        values: Sweep::linspace(0.1, 0.5, values),
         passes,
         start: (3.0, 2.0),
         transient: effort.transient,

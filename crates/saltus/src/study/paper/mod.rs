@@ -24,6 +24,8 @@ pub const RATIOS: [f64; 3] = [0.9, 1.0, 1.1];
 pub struct Effort {
     /// Damping ratios in a bifurcation diagram, from 0.1 to 0.5.
     pub values: usize,
+    /// Damping ratios in the diagrams of the other contact laws.
+    pub law_values: usize,
     /// Periods before anything is kept.
     pub transient: u64,
     /// Periods kept.
@@ -43,12 +45,13 @@ impl Effort {
     pub fn full() -> Self {
         Self {
             values: 401,
+            law_values: 201,
             transient: 300,
             record: 100,
             starts: vec![(3.0, 2.0), (0.0, 0.0), (-2.0, 1.0)],
             full_values: 17,
             full_periods: (150, 50),
-            exponent_periods: 2000,
+            exponent_periods: 5000,
         }
     }
 
@@ -56,6 +59,7 @@ impl Effort {
     pub fn quick() -> Self {
         Self {
             values: 81,
+            law_values: 41,
             transient: 150,
             record: 50,
             starts: vec![(3.0, 2.0), (0.0, 0.0)],
@@ -69,8 +73,9 @@ impl Effort {
 impl Effort {
     /// Periods of all diagrams, for a progress display.
     pub fn diagram_periods(&self) -> u64 {
-        let passes = 2 * RATIOS.len() * (2 + self.starts.len()) + 2 * RATIOS.len() * 2;
-        (passes * self.values) as u64 * (self.transient + self.record)
+        let paper = 2 * RATIOS.len() * (2 + self.starts.len()) * self.values;
+        let laws = 2 * RATIOS.len() * 2 * self.law_values;
+        (paper + laws) as u64 * (self.transient + self.record)
     }
 
     /// Periods of the cases of Fig. 3 under one reading.
