@@ -30,7 +30,7 @@ pub enum ResultsError {
         marker: &'static str,
     },
     /// The target of a folder is a file, or the target of a file is a folder.
-    #[error("`{}` is not a {expected}", path.display())]
+    #[error("cannot write {}: it is not a {expected}", path.display())]
     WrongKind {
         /// The path in question.
         path: PathBuf,
