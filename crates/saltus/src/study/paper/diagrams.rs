@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use saltus_hybrid::Status;
+use saltus_hybrid::{Point, Status};
 
 use super::{Effort, RATIOS, setup};
 use crate::model::{Inertia, Model, ModelError, PreparedPlate};
@@ -156,50 +156,46 @@ pub struct Coexistence {
     pub periods: (Option<u32>, Option<u32>),
 }
 
-/// Periods more to run before two motions are called different attractors.
-const CONFIRM: u64 = 1000;
+/// Periods to run on before two motions are compared, and again before they are compared once more.
+const CONFIRM: u64 = 500;
+
+/// Two motions approach each other if a confirmation shrinks their distance below this part of it.
+const APPROACHING: f64 = 0.9;
 
 /// Where two passes of a diagram end on different attractors, at least one of them periodic.
 ///
-/// Near a bifurcation two passes differ for a long time because transients die slowly; so each pair
-/// that differs is run on for 1000 periods and compared again.
+/// Near a bifurcation two passes differ for a long time because transients die slowly. So each pair
+/// that differs is run on twice for 500 periods: on different attractors the distance of the two sets
+/// of points stays what it is, in a slow transient it shrinks.
 ///
 /// # Errors
 /// [`StudyError`] if there is no model of the paper's plate, or when stopped.
 pub fn coexistence(diagram: &Diagram, control: &Control) -> Result<Vec<Coexistence>, StudyError> {
     let plate = PreparedPlate::new(&Plate::dias_del_prado())?;
     let model_at = model_at(&plate, diagram.law, diagram.reference, diagram.ratio);
-    let passes: Vec<Vec<&SweepRow>> = (0..diagram.passes.len())
-        .map(|pass| diagram.pass(pass).collect())
-        .collect();
-    let mut candidates: Vec<(usize, usize)> = Vec::new();
-    let mut starts = Vec::new();
-    for i in 0..passes.first().map_or(0, Vec::len) {
-        let motion =
-            |pass: &Vec<&SweepRow>| Some((pass[i].z.first()?.clone(), pass[i].v.first()?.clone()));
-        let motions: Vec<_> = passes.iter().filter_map(motion).collect();
-        let differs = |other: &(Vec<f64>, Vec<f64>)| different(&motions[0], other).is_some();
-        let Some(other) = motions.iter().position(differs) else {
-            continue;
-        };
-        for pass in [0, other] {
-            if let Some(end) = &passes[pass][i].end {
-                starts.push((model_at(passes[0][i].value)?, end.clone()));
-            }
-        }
-        candidates.push((i, starts.len()));
-    }
-    let settled = settle(&starts, CONFIRM, 100, control)?;
+    let (candidates, starts) = candidates(diagram, model_at)?;
+    let once = settle(&starts, CONFIRM, 100, control)?;
+    let on =
+        |((model, _), settled): (&(Model, Point), &Settled)| (model.clone(), settled.end.clone());
+    let starts: Vec<_> = starts.iter().zip(&once).map(on).collect();
+    let twice = settle(&starts, CONFIRM, 100, control)?;
     let mut out: Vec<Coexistence> = Vec::new();
     let mut last = None;
-    for (i, end) in candidates {
-        let [a, b] = [&settled[end - 2], &settled[end - 1]];
-        let motion = |s: &Settled| (s.z.clone(), s.v.clone());
-        let Some(periods) = different(&motion(a), &motion(b)) else {
+    for ((row, value), (once, twice)) in candidates
+        .into_iter()
+        .zip(once.chunks(2).zip(twice.chunks(2)))
+    {
+        let distance = |pair: &[Settled]| Motion::of(&pair[0]).distance(&Motion::of(&pair[1]));
+        let (before, after) = (distance(once), distance(twice));
+        let periods = (
+            Motion::of(&twice[0]).period(),
+            Motion::of(&twice[1]).period(),
+        );
+        let apart = after > 2.0 * SAME && after > APPROACHING * before;
+        if !apart || periods == (None, None) {
             continue;
-        };
-        let value = passes[0][i].value;
-        match out.last_mut().filter(|_| last == Some(i - 1)) {
+        }
+        match out.last_mut().filter(|_| row > 0 && last == Some(row - 1)) {
             Some(stretch) => stretch.to = value,
             None => out.push(Coexistence {
                 from: value,
@@ -207,30 +203,80 @@ pub fn coexistence(diagram: &Diagram, control: &Control) -> Result<Vec<Coexisten
                 periods,
             }),
         }
-        last = Some(i);
+        last = Some(row);
     }
     Ok(out)
 }
 
-type Motion = (Vec<f64>, Vec<f64>);
+/// Rows of a diagram, by place and damping ratio, at which some pass differs from the first one.
+type Candidates = Vec<(usize, f64)>;
 
-/// The periods of two motions that cannot be the same attractor: one periodic, the other not or on
-/// other points.
-fn different(a: &Motion, b: &Motion) -> Option<(Option<u32>, Option<u32>)> {
-    let period = |motion: &Motion| recurrence(&motion.0, &motion.1, SAME);
-    let periods = (period(a), period(b));
-    let differ = match periods {
-        (None, None) => false,
-        (Some(n), Some(m)) => n != m || !same_orbit(a, b, n as usize),
-        _ => true,
-    };
-    differ.then_some(periods)
+/// The candidates, and for each the last states of the two passes that differ most.
+fn candidates(
+    diagram: &Diagram,
+    model_at: impl Fn(f64) -> Result<Model, ModelError>,
+) -> Result<(Candidates, Vec<(Model, Point)>), StudyError> {
+    let passes: Vec<Vec<&SweepRow>> = (0..diagram.passes.len())
+        .map(|pass| diagram.pass(pass).collect())
+        .collect();
+    let (mut candidates, mut starts) = (Vec::new(), Vec::new());
+    for i in 0..passes.first().map_or(0, Vec::len) {
+        let motions: Option<Vec<Motion<'_>>> =
+            passes.iter().map(|rows| Motion::at(rows[i])).collect();
+        let Some(motions) = motions else { continue };
+        if motions.iter().all(|motion| motion.period().is_none()) {
+            continue;
+        }
+        let distances = motions.iter().map(|motion| motion.distance(&motions[0]));
+        let farthest = distances.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((other, _)) = farthest.filter(|(_, distance)| *distance > SAME) else {
+            continue;
+        };
+        let ends = (&passes[0][i].end, &passes[other][i].end);
+        if let (Some(first), Some(second)) = ends {
+            let value = passes[0][i].value;
+            let model = model_at(value)?;
+            candidates.push((i, value));
+            starts.extend([(model.clone(), first.clone()), (model, second.clone())]);
+        }
+    }
+    Ok((candidates, starts))
 }
 
-/// Whether two n-periodic motions visit the same points (in any phase).
-fn same_orbit(a: &Motion, b: &Motion, n: usize) -> bool {
-    let near = |i: usize, j: usize| {
-        (a.0[i] - b.0[j]).abs() < 2.0 * SAME && (a.1[i] - b.1[j]).abs() < 2.0 * SAME
-    };
-    (0..n).any(|shift| (0..n).all(|i| near(i, (i + shift) % n)))
+/// The section of a settled motion: z/eta and z'/(eta omega_h).
+struct Motion<'a> {
+    z: &'a [f64],
+    v: &'a [f64],
+}
+
+impl<'a> Motion<'a> {
+    fn at(row: &'a SweepRow) -> Option<Self> {
+        Some(Self {
+            z: row.z.first()?,
+            v: row.v.first()?,
+        })
+    }
+
+    fn of(settled: &'a Settled) -> Self {
+        Self {
+            z: &settled.z,
+            v: &settled.v,
+        }
+    }
+
+    fn period(&self) -> Option<u32> {
+        recurrence(self.z, self.v, SAME)
+    }
+
+    /// Hausdorff distance of the two sets of points, in the larger of both coordinates.
+    fn distance(&self, other: &Self) -> f64 {
+        let from = |a: &Self, b: &Self| {
+            let nearest = |(z, v): (&f64, &f64)| {
+                let gap = |(bz, bv): (&f64, &f64)| (z - bz).abs().max((v - bv).abs());
+                b.z.iter().zip(b.v).map(gap).fold(f64::INFINITY, f64::min)
+            };
+            a.z.iter().zip(a.v).map(nearest).fold(0.0, f64::max)
+        };
+        from(self, other).max(from(other, self))
+    }
 }
