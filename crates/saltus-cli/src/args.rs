@@ -111,6 +111,9 @@ pub(crate) struct CheckArgs {
     pub(crate) study: StudyArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+    // Accepted as everywhere, though there is too little to do for two.
+    #[command(flatten)]
+    pub(crate) threads: ThreadArgs,
 }
 
 #[derive(Debug, Args)]
@@ -129,6 +132,9 @@ pub(crate) struct FrequenciesArgs {
     pub(crate) study: StudyArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
+    // Accepted as everywhere, though there is too little to do for two.
+    #[command(flatten)]
+    pub(crate) threads: ThreadArgs,
 }
 
 #[derive(Debug, Args)]
