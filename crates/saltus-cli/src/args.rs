@@ -22,15 +22,16 @@ pub(crate) enum Command {
     /// Print a commented study file to start from
     Init(InitArgs),
     /// Read a study file, say what it describes, or what is wrong with it
-    Check(CheckArgs),
+    Check(WorkArgs),
     /// Print the JSON Schema of the study file
     Schema(SchemaArgs),
     /// Natural frequencies: empty plate, in its plane, with the people on it
-    Frequencies(FrequenciesArgs),
+    Frequencies(WorkArgs),
     /// Integrate the motion and look at it once per forcing period
     Simulate(SimulateArgs),
     /// Long-term motion while one parameter changes
-    Sweep(SweepArgs),
+    #[command(after_help = help::SWEEP)]
+    Sweep(WorkArgs),
 }
 
 /// The study a command works on.
@@ -105,13 +106,13 @@ pub(crate) enum Preset {
     Paper,
 }
 
+/// What most commands take.
 #[derive(Debug, Args)]
-pub(crate) struct CheckArgs {
+pub(crate) struct WorkArgs {
     #[command(flatten)]
     pub(crate) study: StudyArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
-    // Accepted as everywhere, though there is too little to do for two.
     #[command(flatten)]
     pub(crate) threads: ThreadArgs,
 }
@@ -127,17 +128,6 @@ pub(crate) struct SchemaArgs {
 }
 
 #[derive(Debug, Args)]
-pub(crate) struct FrequenciesArgs {
-    #[command(flatten)]
-    pub(crate) study: StudyArgs,
-    #[command(flatten)]
-    pub(crate) output: OutputArgs,
-    // Accepted as everywhere, though there is too little to do for two.
-    #[command(flatten)]
-    pub(crate) threads: ThreadArgs,
-}
-
-#[derive(Debug, Args)]
 #[command(after_help = help::SIMULATE)]
 pub(crate) struct SimulateArgs {
     #[command(flatten)]
@@ -145,17 +135,6 @@ pub(crate) struct SimulateArgs {
     /// Forcing periods to integrate; short for --set simulate.periods=N
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     pub(crate) periods: Option<u32>,
-    #[command(flatten)]
-    pub(crate) output: OutputArgs,
-    #[command(flatten)]
-    pub(crate) threads: ThreadArgs,
-}
-
-#[derive(Debug, Args)]
-#[command(after_help = help::SWEEP)]
-pub(crate) struct SweepArgs {
-    #[command(flatten)]
-    pub(crate) study: StudyArgs,
     #[command(flatten)]
     pub(crate) output: OutputArgs,
     #[command(flatten)]

@@ -238,7 +238,7 @@ pub enum IntegrateError {
         /// What would be right.
         expected: &'static str,
     },
-    /// A leg whose system has another program than the first one's.
+    /// A leg whose system has another program than those it would share lanes with.
     #[error("the systems of one run must have the same structure; only their numbers may differ")]
     Structure,
     /// A start of the wrong length.

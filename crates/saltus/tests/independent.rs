@@ -64,7 +64,7 @@ fn largest_error(inertia: Inertia, method: Method, orbit: &(f64, f64, [f64; 6]))
 #[test]
 fn both_steppers_agree_with_an_independent_program() {
     for orbit in &ORBITS {
-        // The other program's tolerance of 1e-12 grows to a few 1e-10 over twenty jumps.
+        // The other program's tolerance of 1e-12 grows to a few 1e-10 over twenty periods.
         let taylor = largest_error(Inertia::Condensed, Method::taylor(1e-12), orbit);
         assert!(taylor < 2e-9, "Taylor: {taylor:e}");
         let rk4 = Method::Rk4 {

@@ -1,6 +1,6 @@
 //! `saltus check`: what a study file describes.
 
-use crate::args::CheckArgs;
+use crate::args::WorkArgs;
 use crate::exit::Failure;
 use crate::output;
 use saltus::physics::BaseFrequency;
@@ -17,7 +17,7 @@ struct Report<'a> {
     study: &'a Study,
 }
 
-pub(super) fn run(args: &CheckArgs) -> Result<(), Failure> {
+pub(super) fn run(args: &WorkArgs) -> Result<(), Failure> {
     let study = super::load(&args.study, &[])?;
     let warnings = warnings(&study);
     if let Some(folder) = super::folder(&args.output, &study)? {

@@ -1,6 +1,6 @@
 //! `saltus frequencies`: the plate empty, in its plane, and with the people on it.
 
-use crate::args::FrequenciesArgs;
+use crate::args::WorkArgs;
 use crate::exit::Failure;
 use saltus::physics::PhysicsError;
 use saltus_config::Study;
@@ -24,7 +24,7 @@ struct Frequencies {
     base_hz: f64,
 }
 
-pub(super) fn run(args: &FrequenciesArgs) -> Result<(), Failure> {
+pub(super) fn run(args: &WorkArgs) -> Result<(), Failure> {
     let study = super::load(&args.study, &[])?;
     let found = frequencies(&study).map_err(Failure::computation)?;
     if let Some(mut folder) = super::folder(&args.output, &study)? {

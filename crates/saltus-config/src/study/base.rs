@@ -46,7 +46,7 @@ impl BaseTable {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Reference {
-    /// The body's frequency on the flexible plate: agrees with every statement of the paper.
+    /// The body's frequency on the flexible plate: agrees best with the paper.
     #[default]
     Occupied,
     /// The body's frequency on rigid ground.

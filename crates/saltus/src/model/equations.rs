@@ -14,7 +14,7 @@
 //!
 //! # Departures from the paper
 //! - (9a) prints psi_i^2 where Lagrange's equations of (2) and (6) give psi_i psi_j.
-//! - (9c) and (11b) print 16/pi^2 for every j; the integral of psi_j is 4 a b/(pi^2 m_j n_j) for odd
+//! - (9c) and (11b) print 16/pi^2 for every j; G_j = rho h times the integral of psi_j is 16 M/(pi^2 m_j n_j) for odd
 //!   m_j n_j and zero else.
 //! - (10) prints + k_h; with it the reaction at rest would be minus the weight.
 

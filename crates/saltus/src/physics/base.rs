@@ -29,8 +29,8 @@ pub enum BaseFrequency {
 /// The frequency that DP's "0.9, 1.0, 1.1 omega_h" refers to. The paper does not say which.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum FrequencyReference {
-    /// The body's frequency on the flexible plate (2.5373 Hz): agrees with every statement of DP
-    /// section 4.
+    /// The body's frequency on the flexible plate (2.5373 Hz): agrees best with DP section 4 (see the
+    /// table of facts of `saltus reproduce`).
     #[default]
     Occupied,
     /// The body's frequency on rigid ground (2.4794 Hz): contradicts two of them.

@@ -6,7 +6,7 @@ mod report;
 mod summary;
 mod tables;
 
-use crate::args::SweepArgs;
+use crate::args::WorkArgs;
 use crate::exit::Failure;
 use crate::folder::Folder;
 use crate::{interrupt, progress, status};
@@ -35,7 +35,7 @@ struct Run<'a> {
     rows: Vec<SweepRow>,
 }
 
-pub(super) fn run(args: &SweepArgs) -> Result<(), Failure> {
+pub(super) fn run(args: &WorkArgs) -> Result<(), Failure> {
     let study = super::load(&args.study, &[])?;
     let (table, parameter) = question(&study)?;
     let sweep = plan(&study, table);
