@@ -3,8 +3,9 @@
 #![allow(clippy::print_stdout)]
 
 use saltus_results::{
-    Axis, Cloud, CsvTable, Curves, Fact, Figure, FigureBlock, History, Image, MarkdownTable, Page,
-    Panel, Portrait, ResultFolder, Verdict,
+    Axis, Class, ClassMap, Cloud, Colour, ColourScale, CsvTable, Curves, Dataset, Fact, Figure,
+    FigureBlock, Grid, History, Image, MarkdownTable, Page, Panel, Portrait, ResultFolder,
+    ValueMap, Variable, Verdict,
 };
 use std::path::Path;
 use std::time::Instant;
@@ -36,7 +37,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             caption: "A caption in our words, long enough to need a second line on a narrow screen, with a \
                       statement of what is drawn and where the numbers come from.",
             alternative: name,
-            image: if name == "cloud" { Image::Png(&png) } else { Image::Svg(&svg) },
+            image: if name == "cloud" || svg.len() > 1_000_000 { Image::Png(&png) } else { Image::Svg(&svg) },
             files: &[("SVG", &svg_file), ("PNG", &png_file)],
         });
         folder.write(&svg_file, &svg)?;
@@ -45,6 +46,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut table = CsvTable::new(Vec::new(), &[("seed", "none")], &["step (s)", "error (m)"])?;
     table.row([0.1.into(), 1e-5.into()])?;
     folder.write("errors.csv", table.finish()?)?;
+    folder.write_dataset("map.nc", dataset())?;
     let facts = facts();
     let markdown = facts
         .iter()
@@ -69,6 +71,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         })
         .files([
             ("The errors as CSV", "errors.csv"),
+            ("A map as NetCDF-4", "map.nc"),
             ("The facts as Markdown", "facts.md"),
         ]);
     folder.write("index.html", page.render())?;
@@ -136,6 +139,20 @@ fn figures() -> Vec<(&'static str, Figure)> {
         ("history", Figure::new(history())),
         ("curves", Figure::new(errors())),
         ("backbone", Figure::new(backbone())),
+        ("map-coarse", Figure::new(circle(9, 7).0.shares())),
+        (
+            "map-fine",
+            Figure::new(circle(1000, 1000).0.shares()).plot_size(640.0, 560.0),
+        ),
+        (
+            "map-values",
+            Figure::new(markus(1000)).plot_size(640.0, 560.0),
+        ),
+        ("map-classes", Figure::new(all_classes())),
+        (
+            "maps",
+            Figure::grid(2, maps()).title("One study, four layers: 60 x 40 cells"),
+        ),
         (
             "empty",
             Figure::grid(3, edge_cases()).title("Edge cases: no data, constant data, tiny data"),
@@ -288,6 +305,232 @@ fn backbone() -> Curves {
     .flag(2.31, "a close neighbour")
 }
 
+/// Cells of growing width on a logarithmic axis, and values so small that a power of ten helps.
+fn uneven(size: f64) -> ValueMap {
+    let x = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
+    let y = [0.0, 1.0, 2.0, 4.0, 8.0];
+    let axes = (Axis::new("Mass (kg)").logarithmic(), Axis::new("Value (-)"));
+    let values: Vec<f64> = (0..35).map(|i| size * f64::from(i % 11)).collect();
+    let grid = Grid::new(axes.0, x, axes.1, y);
+    ValueMap::new("Uneven cells", grid, values, Axis::new("Height (m)"))
+}
+
+/// A map behind a window that cuts it at one side and reaches beyond it at the other.
+fn cropped() -> ClassMap {
+    let side = even(0.0, 10.0, 11);
+    let axes = (
+        Axis::new("x (-)").range(3.3, 12.0),
+        Axis::new("y (-)").range(-2.0, 8.2),
+    );
+    let cells: Vec<u8> = (0..121).map(|i| (i % 13) as u8).collect();
+    ClassMap::new(
+        "A window",
+        Grid::new(axes.0, &side[..], axes.1, &side[..]),
+        cells,
+        classes(),
+    )
+}
+
+/// A map of one cell, which has no value.
+fn nothing() -> ValueMap {
+    let grid = Grid::new(Axis::new("x (-)"), [1.0], Axis::new("y (-)"), [0.0]);
+    ValueMap::new(
+        "One cell without a value",
+        grid,
+        [f64::NAN],
+        Axis::new("Value (-)"),
+    )
+}
+
+fn even(low: f64, high: f64, count: usize) -> Vec<f64> {
+    let last = (count - 1) as f64;
+    (0..count)
+        .map(|i| low + (high - low) * i as f64 / last)
+        .collect()
+}
+
+fn classes() -> Vec<Class> {
+    let periods = [1, 2, 3, 4, 5, 6, 8, 12, 16];
+    let mut classes: Vec<Class> = periods
+        .iter()
+        .zip(Colour::SERIES)
+        .map(|(period, colour)| Class::new(format!("Period {period}"), colour))
+        .collect();
+    classes.extend([
+        Class::new("Other periodic", Colour::OTHER),
+        Class::new("Not periodic", Colour::IRREGULAR),
+        Class::new("Undecided", Colour::UNDECIDED),
+        Class::new("Failed", Colour::FAILED),
+    ]);
+    classes
+}
+
+/// A grid in the ranges of a typical study.
+fn study_grid(columns: usize, rows: usize) -> (Grid, Vec<f64>, Vec<f64>) {
+    let (x, y) = (even(0.9, 1.1, columns), even(0.1, 0.5, rows));
+    let axes = (
+        Axis::new("Frequency ratio Ω/ω_h (-)"),
+        Axis::new("Damping ratio ζ_h (-)"),
+    );
+    (Grid::new(axes.0, &x[..], axes.1, &y[..]), x, y)
+}
+
+/// Tongues of the circle map by the period of the rotation, and how far the points wander.
+fn circle(columns: usize, rows: usize) -> (ClassMap, Vec<f64>) {
+    let (grid, x, y) = study_grid(columns, rows);
+    let (mut cells, mut spread) = (Vec::new(), Vec::new());
+    for &y in &y {
+        for &x in &x {
+            let (turn, strength) = ((x - 0.9) * 5.0, 3.2 - (y - 0.1) * 8.0);
+            let step = |p: f64| {
+                p + turn - strength / std::f64::consts::TAU * (std::f64::consts::TAU * p).sin()
+            };
+            let start = (0..150).fold(0.1, |p, _| step(p));
+            let mut p = start;
+            let mut period = None;
+            for n in 1..=40 {
+                p = step(p);
+                if ((p - start) - (p - start).round()).abs() < 1e-4 {
+                    period = Some(n);
+                    break;
+                }
+            }
+            let known = [1, 2, 3, 4, 5, 6, 8, 12, 16];
+            let class = period.map_or(10, |n| known.iter().position(|&k| k == n).unwrap_or(9));
+            cells.push(class as u8);
+            spread.push((p - start).abs().fract());
+        }
+    }
+    (
+        ClassMap::new("Tongues of the circle map", grid, cells, classes()),
+        spread,
+    )
+}
+
+/// Lyapunov exponent of the logistic map forced in turn by two rates (Markus & Hess 1989).
+fn markus(count: usize) -> ValueMap {
+    let (x, y) = (even(2.8, 4.05, count), even(2.8, 4.0, count));
+    let mut values = Vec::new();
+    for &b in &y {
+        for &a in &x {
+            let (mut p, mut sum) = (0.5_f64, 0.0);
+            for n in 0..160 {
+                let r = if n % 12 < 6 { a } else { b };
+                p = r * p * (1.0 - p);
+                if n > 40 {
+                    sum += (r * (1.0 - 2.0 * p)).abs().max(1e-12).ln();
+                }
+            }
+            values.push(if p.is_finite() && p >= 0.0 {
+                sum / 119.0
+            } else {
+                f64::NAN
+            });
+        }
+    }
+    let axes = (Axis::new("Rate A (-)"), Axis::new("Rate B (-)"));
+    let grid = Grid::new(axes.0, x, axes.1, y);
+    let bar = Axis::new("Lyapunov exponent (1/step)").range(-1.5, 0.8);
+    ValueMap::new("Exponents, where the population lives", grid, values, bar).missing("Extinct")
+}
+
+fn all_classes() -> ClassMap {
+    let classes = classes();
+    let count = classes.len();
+    let cells: Vec<u8> = (0..count * count)
+        .map(|i| {
+            if (i / count).is_multiple_of(2) {
+                i % count
+            } else {
+                (i * 5 + i / count) % count
+            }
+        })
+        .map(|class| class as u8)
+        .collect();
+    let side = even(1.0, count as f64, count);
+    let grid = Grid::new(
+        Axis::new("Class"),
+        &side[..],
+        Axis::new("Neighbours"),
+        &side[..],
+    );
+    ClassMap::new("All classes beside each other", grid, cells, classes)
+}
+
+fn maps() -> Vec<Panel> {
+    let (classes, spread) = circle(60, 40);
+    let (grid, x, y) = study_grid(60, 40);
+    let each = |f: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
+        y.iter()
+            .flat_map(|&y| x.iter().map(move |&x| f(x, y)))
+            .collect()
+    };
+    let peak = |x: f64, y: f64| {
+        if (x - 1.0).hypot(y - 0.2) < 0.02 {
+            f64::NAN
+        } else {
+            9.81 / ((x - 1.0).hypot(0.2 * y) + 0.02)
+        }
+    };
+    let contact = ValueMap::new(
+        "Contact ratio",
+        grid.clone(),
+        spread,
+        Axis::new("Contact ratio (-)").range(0.0, 1.0),
+    );
+    let acceleration = ValueMap::new(
+        "Peak acceleration",
+        grid.clone(),
+        each(&peak),
+        Axis::new("Peak acceleration (m/s²)").range(0.0, 200.0),
+    )
+    .scale(ColourScale::Cividis);
+    let decades = Axis::new("Largest error after a whole minute of jumping on the spot, in words that need a second line (m)").logarithmic();
+    let error = ValueMap::new(
+        "Error",
+        grid,
+        each(&|x, y| (40.0 * (x - 1.0) - 30.0 * y).exp()),
+        decades,
+    );
+    vec![
+        classes.shares().into(),
+        contact.into(),
+        acceleration.into(),
+        error.into(),
+    ]
+}
+
+fn dataset() -> Dataset {
+    let (columns, rows) = (60, 40);
+    let (_, spread) = circle(columns, rows);
+    let label: Vec<u8> = spread.iter().map(|&s| u8::from(s > 0.5)).collect();
+    Dataset::new("Tongues of the circle map")
+        .attribute(
+            "source",
+            concat!("saltus-results ", env!("CARGO_PKG_VERSION")),
+        )
+        .coordinate(
+            Variable::coordinate("damping_ratio", even(0.1, 0.5, rows))
+                .units("1")
+                .long_name("Damping ratio ζ_h"),
+        )
+        .coordinate(
+            Variable::coordinate("frequency_ratio", even(0.9, 1.1, columns))
+                .units("1")
+                .long_name("Frequency ratio Ω/ω_h"),
+        )
+        .variable(
+            Variable::new("spread", &["damping_ratio", "frequency_ratio"], spread)
+                .units("1")
+                .long_name("Spread"),
+        )
+        .variable(
+            Variable::new("wide", &["damping_ratio", "frequency_ratio"], label)
+                .long_name("Whether the points wander far")
+                .flags([(0, "no"), (1, "yes")]),
+        )
+}
+
 fn edge_cases() -> Vec<Panel> {
     let axes = || {
         (
@@ -310,5 +553,12 @@ fn edge_cases() -> Vec<Panel> {
     let (x, y) = axes();
     let tiny =
         Curves::new("Tiny & <escaped>", x, y).dots("Tiny", vec![1e-19, 2e-19], vec![-3e7, 4e7]);
-    vec![none.into(), constant.into(), tiny.into()]
+    vec![
+        none.into(),
+        constant.into(),
+        tiny.into(),
+        uneven(1e-3).into(),
+        cropped().into(),
+        nothing().into(),
+    ]
 }

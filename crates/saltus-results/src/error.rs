@@ -61,6 +61,56 @@ pub enum ResultsError {
         /// Columns in the header.
         columns: usize,
     },
+    /// A dataset whose parts do not fit each other.
+    #[error("the dataset cannot be written: `{name}` {problem}")]
+    Dataset {
+        /// The variable, dimension or attribute in question.
+        name: String,
+        /// What is wrong with it and what would be right.
+        problem: String,
+    },
+    /// A folder of pieces is in use by another run.
+    #[error(
+        "the folder `{}` is in use by another run{}: wait for it to end, or choose another folder",
+        path.display(),
+        process.map(|id| format!(" (process {id})")).unwrap_or_default()
+    )]
+    PiecesInUse {
+        /// The folder of pieces.
+        path: PathBuf,
+        /// The process that holds it, if it could be read.
+        process: Option<u32>,
+    },
+    /// The pieces in a folder belong to other work.
+    #[error(
+        "the pieces in `{}` belong to other work: {differences}. Choose another folder, or remove this one",
+        path.display()
+    )]
+    ForeignPieces {
+        /// The folder of pieces.
+        path: PathBuf,
+        /// What differs, in words: each name with what was found and what is expected.
+        differences: String,
+    },
+    /// A folder meant for pieces holds something else.
+    #[error(
+        "the folder `{}` is not empty and holds no `{manifest}`: choose a new or an empty folder for the pieces",
+        path.display()
+    )]
+    NoPieces {
+        /// The folder that was left alone.
+        path: PathBuf,
+        /// The file that would have marked it as a folder of pieces.
+        manifest: &'static str,
+    },
+    /// A piece is there but not what was written.
+    #[error("the piece `{}` is damaged ({problem}); it will have to be made again", path.display())]
+    DamagedPiece {
+        /// File of the piece.
+        path: PathBuf,
+        /// What is wrong with it.
+        problem: String,
+    },
     /// A PNG of this size cannot be drawn.
     #[error(
         "a PNG of {width} x {height} at scale {scale} cannot be drawn: choose a scale between 0.5 and 8"

@@ -3,7 +3,7 @@
 //! Everything is written to a staging place on the same file system first; only when all of it is on
 //! disk does it move to its name. A run that fails, or is interrupted, leaves the target as it was.
 
-use crate::ResultsError;
+use crate::{Dataset, ResultsError};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Component, Path, PathBuf};
@@ -89,6 +89,14 @@ impl ResultFolder {
             self.files.push(relative);
         }
         Ok(())
+    }
+
+    /// Stages `dataset` as the NetCDF-4 file `name`.
+    ///
+    /// # Errors
+    /// As [`write`](Self::write), and [`ResultsError::Dataset`] if its parts do not fit each other.
+    pub fn write_dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), ResultsError> {
+        self.write(name, dataset.to_bytes()?)
     }
 
     /// Moves everything into place and returns the folder's path.

@@ -4,17 +4,26 @@
 //!
 //! - [`figure`]: a small declarative figure model, rendered to SVG text and PNG bytes;
 //! - [`folder`]: result folders and single files that appear whole or not at all;
+//! - [`dataset`]: arrays over named axes as one NetCDF-4 file, for xarray and its like;
+//! - [`pieces`]: finished pieces of long work, kept so that it can be taken up again;
 //! - [`table`]: CSV that reads back to the same bits, and Markdown tables;
 //! - [`page`]: a self-contained HTML page that shows figures, tables and facts without a network.
 
+pub mod dataset;
 pub mod error;
 pub mod figure;
 pub mod folder;
 pub mod page;
+pub mod pieces;
 pub mod table;
 
+pub use dataset::{Attribute, Dataset, Values, Variable};
 pub use error::ResultsError;
-pub use figure::{Axis, Cloud, Colour, Curves, Figure, History, Panel, Portrait};
+pub use figure::{
+    Axis, Class, ClassMap, Cloud, Colour, ColourScale, Curves, Figure, Grid, History, Panel,
+    Portrait, ValueMap,
+};
 pub use folder::{ResultFolder, write_file_atomically};
 pub use page::{Fact, FigureBlock, Image, Page, Verdict};
+pub use pieces::{Damage, PieceStore, Survey};
 pub use table::{CsvTable, MarkdownTable, Value};

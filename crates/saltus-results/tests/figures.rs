@@ -1,7 +1,10 @@
 //! Figures stand whatever the data: well-formed, finite, inked, the same each time.
 #![allow(clippy::unwrap_used)]
 
-use saltus_results::{Axis, Cloud, Curves, Figure, History, Panel, Portrait, ResultsError};
+use saltus_results::{
+    Axis, Class, ClassMap, Cloud, Colour, Curves, Figure, Grid, History, Panel, Portrait,
+    ResultsError, ValueMap,
+};
 
 const BAD: [f64; 5] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e308, -1e308];
 
@@ -36,6 +39,24 @@ fn panels(x: &[f64], y: &[f64]) -> Vec<Panel> {
             .dotted_line("b", x, y)
             .dots("c", x, y)
             .into(),
+        ClassMap::new("m <i>", grid(x, y), [0, 1, 2, 1, 0, 3], two_classes())
+            .shares()
+            .into(),
+        ValueMap::new("v", grid(y, x), x, Axis::new("v & <w> (m/s²)")).into(),
+    ]
+}
+
+/// A grid of up to nine cells.
+fn grid(x: &[f64], y: &[f64]) -> Grid {
+    let few = |values: &[f64]| values[..values.len().min(3)].to_vec();
+    let (a, b) = axes();
+    Grid::new(a, few(x), b, few(y))
+}
+
+fn two_classes() -> [Class; 2] {
+    [
+        Class::new("one & two", Colour::SERIES[0]),
+        Class::new("<three>", Colour::IRREGULAR),
     ]
 }
 
@@ -61,22 +82,24 @@ fn check_svg(svg: &str) {
     }
 }
 
-/// Width, height and the share of pixels that are not white.
-fn inked(png: &[u8]) -> (u32, u32, f64) {
-    let mut reader = png::Decoder::new(std::io::Cursor::new(png))
-        .read_info()
-        .unwrap();
+/// Width, height and three bytes for each pixel.
+fn pixels(png: &[u8]) -> (u32, u32, Vec<u8>) {
+    let mut decoder = png::Decoder::new(std::io::Cursor::new(png));
+    decoder.set_transformations(png::Transformations::EXPAND);
+    let mut reader = decoder.read_info().unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut pixels).unwrap();
+    (info.width, info.height, pixels)
+}
+
+/// Width, height and the share of pixels that are not white.
+fn inked(png: &[u8]) -> (u32, u32, f64) {
+    let (width, height, pixels) = pixels(png);
     let dark = pixels
         .chunks_exact(3)
         .filter(|pixel| pixel.iter().any(|&v| v < 250))
         .count();
-    (
-        info.width,
-        info.height,
-        dark as f64 / f64::from(info.width * info.height),
-    )
+    (width, height, dark as f64 / f64::from(width * height))
 }
 
 #[test]
@@ -185,5 +208,140 @@ fn svg_and_png_have_one_size_and_odd_scales_are_refused() {
             matches!(figure.png(scale), Err(ResultsError::PngScale { .. })),
             "{scale}"
         );
+    }
+}
+
+/// Columns and rows of the embedded image of a map, reduced to one pixel for each of `cells`.
+fn embedded(svg: &str, cells: (usize, usize)) -> Vec<Colour> {
+    let data = svg.split("data:image/png;base64,").nth(1).unwrap();
+    let data = data.split('"').next().unwrap();
+    let png = base64::Engine::decode(&base64::engine::general_purpose::STANDARD, data).unwrap();
+    let (width, height, pixels) = pixels(&png);
+    let (across, down) = (width as usize / cells.0, height as usize / cells.1);
+    assert_eq!(
+        (across * cells.0, down * cells.1),
+        (width as usize, height as usize)
+    );
+    let colour = |column: usize, row: usize| {
+        let at = 3 * ((row * down + down / 2) * width as usize + column * across + across / 2);
+        Colour(pixels[at], pixels[at + 1], pixels[at + 2])
+    };
+    let rows = (0..cells.1).flat_map(|row| (0..cells.0).map(move |column| (column, row)));
+    rows.map(|(column, row)| colour(column, row)).collect()
+}
+
+fn letters(figure: &Figure) -> String {
+    let svg = figure.svg();
+    let tree = roxmltree::Document::parse(&svg).unwrap();
+    let texts: Vec<&str> = tree
+        .descendants()
+        .filter_map(|node| node.text())
+        .map(str::trim)
+        .collect();
+    texts.join(" ")
+}
+
+#[test]
+fn cells_lie_where_their_values_are() {
+    let [one, two] = two_classes().map(|class| class.colour);
+    let cells = [0, 0, 1, 0, 1, 9];
+    let figure = |x: [f64; 3], y: [f64; 2]| {
+        let grid = Grid::new(Axis::new("x"), x, Axis::new("y"), y);
+        Figure::new(ClassMap::new("t", grid, cells, two_classes())).svg()
+    };
+    // Larger y is further up, whichever end the values begin at.
+    let upright = [one, two, Colour::MISSING, one, one, two];
+    assert_eq!(
+        embedded(&figure([0.0, 1.0, 2.0], [0.0, 1.0]), (3, 2)),
+        upright
+    );
+    let turned = [two, one, one, Colour::MISSING, two, one];
+    assert_eq!(
+        embedded(&figure([2.0, 1.0, 0.0], [1.0, 0.0]), (3, 2)),
+        turned
+    );
+}
+
+#[test]
+fn a_map_has_no_seams() {
+    let [one, _] = two_classes().map(|class| class.colour);
+    let side: Vec<f64> = (0..37).map(f64::from).collect();
+    let grid = Grid::new(Axis::new("x"), &side[..], Axis::new("y"), &side[..]);
+    let map = ClassMap::new("", grid, vec![0; 37 * 37], two_classes());
+    let (width, height, pixels) =
+        pixels(&Figure::new(map).plot_size(211.0, 157.0).png(1.3).unwrap());
+    let inside = pixels
+        .chunks_exact(3)
+        .filter(|p| *p == [one.0, one.1, one.2])
+        .count();
+    // Less the frame of one unit; the legend has one patch more.
+    let plot = (211.0 - 2.0) * (157.0 - 2.0) * 1.3 * 1.3;
+    assert!(
+        inside as f64 > plot && width > 270 && height > 200,
+        "{inside} of {plot}"
+    );
+}
+
+#[test]
+fn the_legend_has_what_occurs_in_the_order_given_with_its_share() {
+    let map = |cells: [u8; 8]| -> Panel {
+        let grid = Grid::new(
+            Axis::new("x"),
+            [1.0, 2.0, 3.0, 4.0],
+            Axis::new("y"),
+            [1.0, 2.0],
+        );
+        let classes =
+            ["first", "second", "third", "fourth"].map(|label| Class::new(label, Colour::SKY));
+        ClassMap::new("", grid, cells, classes).shares().into()
+    };
+    let text = letters(&Figure::new(map([2, 2, 2, 2, 2, 0, 0, 0])));
+    let (first, third) = (text.find("first (37.5 %)"), text.find("third (62.5 %)"));
+    assert!(first.is_some() && first < third, "{text}");
+    assert!(
+        !text.contains("second") && !text.contains("fourth") && !text.contains("No value"),
+        "{text}"
+    );
+    let text = letters(&Figure::grid(2, [map([2; 8]), map([1; 8])]));
+    assert!(
+        text.find("second (50.0 %)") < text.find("third (50.0 %)"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_colour_bar_says_what_colours_mean() {
+    let map = |values: [f64; 4]| {
+        let grid = Grid::new(Axis::new("x"), [0.9, 1.1], Axis::new("y"), [0.1, 0.5]);
+        ValueMap::new(
+            "",
+            grid,
+            values,
+            Axis::new("Contact ratio (-)").range(0.0, 1.0),
+        )
+        .missing("Failed")
+    };
+    let text = letters(&Figure::new(map([0.0, 0.3, 1.0, 1.0])));
+    for word in ["Contact ratio (-)", "0.0", "0.2", "1.0"] {
+        assert!(text.contains(word), "{word}: {text}");
+    }
+    assert!(!text.contains("Failed"), "{text}");
+    let figure = Figure::new(map([f64::NAN, 0.3, 7.0, 0.0]));
+    assert!(letters(&figure).contains("Failed"));
+    let colours = embedded(&figure.svg(), (2, 2));
+    // The top row is that of y = 0.5; what lies beyond the limits has the colour of the end.
+    assert_eq!(colours[0], Colour(253, 231, 37));
+    assert_eq!(colours[2], Colour::MISSING);
+}
+
+#[test]
+fn useless_grids_make_an_empty_map() {
+    let (a, b) = axes();
+    let (nan, none) = ([f64::NAN, 1.0], [0.0; 0]);
+    for x in [&nan[..], &none[..], &[1.0, 1.0], &[1.0, 2.0, 1.5]] {
+        let grid = Grid::new(a.clone(), x, b.clone(), [1.0, 2.0]);
+        let figure = Figure::new(ClassMap::new("t", grid, [0_u8; 6], two_classes()));
+        check_svg(&figure.svg());
+        figure.png(0.6).unwrap();
     }
 }

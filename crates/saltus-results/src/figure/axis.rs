@@ -148,6 +148,11 @@ impl Scale {
         }
     }
 
+    /// The plain scale from 0 to 1.
+    pub(crate) fn of_unit() -> Self {
+        Self::new(0.0, 1.0, 0, false)
+    }
+
     /// Ties `low` and `high` to two pixels.
     pub(crate) fn between(mut self, low_px: f64, high_px: f64) -> Self {
         self.slope = (high_px - low_px) / (self.high - self.low);
@@ -188,18 +193,48 @@ impl Scale {
         }
     }
 
-    /// How kuva must write the ticks: all with the same number of decimals, or as powers of ten.
+    /// How kuva must write the ticks.
     pub(crate) fn tick_format(&self) -> TickFormat {
+        let scale = self.clone();
+        TickFormat::Custom(Arc::new(move |units| scale.tick(units)))
+    }
+
+    /// The ticks as pixels and texts, for an axis that kuva does not draw.
+    pub(crate) fn ticks(&self) -> Vec<(f64, String)> {
+        // A tick at a limit must not be lost to rounding.
+        let hair = 1e-9 * (self.high - self.low) / self.step;
+        let first = (self.low / self.step - hair).ceil() as i64;
+        let last = (self.high / self.step + hair).floor() as i64;
+        (first..=last.min(first + 50))
+            .map(|number| number as f64 * self.step)
+            .map(|units| {
+                (
+                    self.origin + (units - self.low) * self.slope,
+                    self.tick(units),
+                )
+            })
+            .collect()
+    }
+
+    /// The text at a tick: all with the same number of decimals, or as powers of ten.
+    fn tick(&self, units: f64) -> String {
         if self.logarithmic {
-            return TickFormat::Custom(Arc::new(|decade| {
-                format!("10{}", superscript(decade.round() as i32))
-            }));
+            return format!("10{}", superscript(units.round() as i32));
         }
         let decimals = decimals(self.step);
-        TickFormat::Custom(Arc::new(move |value| {
-            // A true minus sign is as wide as a plus and does not read as a hyphen.
-            format!("{value:.decimals$}").replace('-', "\u{2212}")
-        }))
+        let text = format!("{units:.decimals$}");
+        // A true minus sign is as wide as a plus and does not read as a hyphen; zero has none.
+        match text.strip_prefix('-') {
+            Some(rest) if rest.chars().all(|c| "0.".contains(c)) => rest.to_owned(),
+            Some(rest) => format!("\u{2212}{rest}"),
+            None => text,
+        }
+    }
+
+    /// Where `value` lies between the limits, as a share: 0 is `low`, 1 is `high`.
+    pub(crate) fn share(&self, value: f64) -> Option<f64> {
+        self.units(value)
+            .map(|units| (units - self.low) / (self.high - self.low))
     }
 }
 

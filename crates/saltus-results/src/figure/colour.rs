@@ -33,6 +33,32 @@ impl Colour {
     /// Dark grey for reference lines.
     pub const DARK: Self = Self(70, 70, 70);
 
+    /// Classes of a map that form a series, such as periods. Together with the four below they were chosen
+    /// by computer so that any two differ for normal and for colour-blind eyes, and in grey: the test
+    /// `classes_differ_for_all_eyes_and_in_grey` says by how much.
+    pub const SERIES: [Self; 10] = [
+        Self(189, 214, 238),
+        Self(220, 150, 25),
+        Self(55, 59, 146),
+        Self(151, 50, 6),
+        Self(141, 212, 134),
+        Self(201, 161, 255),
+        Self(12, 137, 209),
+        Self(104, 28, 0),
+        Self(98, 95, 140),
+        Self(74, 0, 94),
+    ];
+    /// A class for what the series leaves out: pale green, which shows among chaos.
+    pub const OTHER: Self = Self(192, 250, 143);
+    /// A class for what has no order, such as chaos: nearly black.
+    pub const IRREGULAR: Self = Self(24, 24, 24);
+    /// A class for what could not be decided: middle grey.
+    pub const UNDECIDED: Self = Self(150, 150, 150);
+    /// A class for what could not be computed, rare and to be seen: red.
+    pub const FAILED: Self = Self(222, 30, 70);
+    /// Cells of a map without a value: light grey.
+    pub const MISSING: Self = Self(225, 225, 225);
+
     /// Order for curves: the first colours are the darkest on white.
     pub(crate) const CURVES: [Self; 7] = [
         Self::BLUE,
@@ -88,5 +114,96 @@ mod tests {
     fn hex_is_what_svg_reads() {
         assert_eq!(Colour::VERMILLION.hex(), "#d55e00");
         assert_eq!(Colour::of(&Colour::CURVES, 7), Colour::BLUE);
+    }
+
+    /// What a person without one kind of cone sees, from linear RGB (Machado, Oliveira & Fernandes 2009,
+    /// severity 1).
+    const EYES: [[[f64; 3]; 3]; 4] = [
+        [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        [
+            [0.152286, 1.052583, -0.204868],
+            [0.114503, 0.786281, 0.099216],
+            [-0.003882, -0.048116, 1.051998],
+        ],
+        [
+            [0.367322, 0.860646, -0.227968],
+            [0.280085, 0.672501, 0.047413],
+            [-0.011820, 0.042940, 0.968881],
+        ],
+        [
+            [1.255528, -0.076749, -0.178779],
+            [-0.078411, 0.930809, 0.147602],
+            [0.004733, 0.691367, 0.303900],
+        ],
+    ];
+
+    fn times(matrix: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
+        [0, 1, 2].map(|i| (0..3).map(|j| matrix[i][j] * v[j]).sum())
+    }
+
+    fn linear(colour: Colour) -> [f64; 3] {
+        [colour.0, colour.1, colour.2].map(|v| {
+            let v = f64::from(v) / 255.0;
+            if v <= 0.04045 {
+                v / 12.92
+            } else {
+                ((v + 0.055) / 1.055).powf(2.4)
+            }
+        })
+    }
+
+    /// Lightness between 0 and 1 as CIELAB has it, from Ottosson's (2020) cube root.
+    fn toe(l: f64) -> f64 {
+        let (k1, k2) = (0.206, 0.03);
+        let k3 = (1.0 + k1) / (1.0 + k2);
+        let x = k3 * l - k1;
+        0.5 * (x + (x * x + 4.0 * k2 * k3 * l).sqrt())
+    }
+
+    /// Oklab (Ottosson 2020), in which equal distances look about equal.
+    fn oklab(rgb: [f64; 3]) -> [f64; 3] {
+        let to_cones = [
+            [0.4122214708, 0.5363325363, 0.0514459929],
+            [0.2119034982, 0.6806995451, 0.1073969566],
+            [0.0883024619, 0.2817188376, 0.6299787005],
+        ];
+        let to_lab = [
+            [0.2104542553, 0.7936177850, -0.0040720468],
+            [1.9779984951, -2.4285922050, 0.4505937099],
+            [0.0259040371, 0.7827717662, -0.8086757660],
+        ];
+        let rgb = rgb.map(|v| v.clamp(0.0, 1.0));
+        let mut lab = times(&to_lab, times(&to_cones, rgb).map(f64::cbrt));
+        lab[0] = toe(lab[0]);
+        lab
+    }
+
+    #[test]
+    fn classes_differ_for_all_eyes_and_in_grey() {
+        let mut classes = Colour::SERIES.to_vec();
+        classes.extend([
+            Colour::OTHER,
+            Colour::IRREGULAR,
+            Colour::UNDECIDED,
+            Colour::FAILED,
+        ]);
+        let grey = |colour| {
+            let [r, g, b] = linear(colour);
+            toe((0.2126 * r + 0.7152 * g + 0.0722 * b).cbrt())
+        };
+        for (i, &one) in classes.iter().enumerate() {
+            for &two in &classes[..i] {
+                assert!((grey(one) - grey(two)).abs() > 0.05, "{one:?} {two:?}");
+                // Yellow-blue blindness, the last, is rarer than one in ten thousand.
+                for (eye, least) in EYES.iter().zip([0.13, 0.09, 0.09, 0.07]) {
+                    let (a, b) = (
+                        oklab(times(eye, linear(one))),
+                        oklab(times(eye, linear(two))),
+                    );
+                    let distance = (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
+                    assert!(distance > least, "{one:?} {two:?}: {distance}");
+                }
+            }
+        }
     }
 }

@@ -16,10 +16,10 @@ use kuva::render::theme::Theme;
 /// Sizes of type (px).
 const TITLE: u32 = 16;
 const PANEL_TITLE: u32 = 14;
-const LABEL: u32 = 15;
-const TICK: u32 = 13;
+pub(crate) const LABEL: u32 = 15;
+pub(crate) const TICK: u32 = 13;
 /// Distances (px).
-const EDGE: f64 = 8.0;
+pub(crate) const EDGE: f64 = 8.0;
 const TITLE_LINE: f64 = 22.0;
 const PANEL_LINE: f64 = 19.0;
 const FLAG_LINE: f64 = 17.0;
@@ -58,6 +58,7 @@ pub(crate) fn drawing(figure: &Figure) -> Drawing {
 #[derive(Clone, Copy, Default)]
 struct Margins {
     left: f64,
+    right: f64,
     top: f64,
     bottom: f64,
 }
@@ -114,6 +115,7 @@ impl<'a> Draft<'a> {
         let top = draft.title.len() as f64 * PANEL_LINE + rows as f64 * FLAG_LINE + 7.0;
         draft.wish = Margins {
             left: auto.margin_left.ceil(),
+            right: panel.bar.as_ref().map_or(RIGHT, |bar| bar.width(height)),
             top,
             bottom: auto.margin_bottom.ceil(),
         };
@@ -150,9 +152,9 @@ impl<'a> Draft<'a> {
         let (width, height) = figure.plot;
         let layout = self
             .layout(figure.plot)
-            .with_width(margins.left + width + RIGHT)
+            .with_width(margins.left + width + margins.right)
             .with_height(margins.top + height + margins.bottom)
-            .with_force_margins(margins.left, RIGHT)
+            .with_force_margins(margins.left, margins.right)
             // kuva ties the label to the ticks; in a column of panels the labels shall stand in line.
             .with_y_label_offset(self.wish.left - margins.left, 0.0)
             .with_force_margins_y(margins.top, margins.bottom);
@@ -186,6 +188,9 @@ impl<'a> Draft<'a> {
             STROKES / figure.panels.len().max(1),
             &mut drawing.ink,
         );
+        if let Some(bar) = &self.panel.bar {
+            bar.draw(&frame, &mut drawing.scene.elements, &mut drawing.ink);
+        }
         self.heading(&frame, &mut drawing.scene.elements);
     }
 
@@ -241,19 +246,21 @@ impl Sheet {
         for (index, draft) in drafts.iter().enumerate() {
             let column = &mut sheet.columns[index % columns];
             column.left = column.left.max(draft.wish.left);
+            column.right = column.right.max(draft.wish.right);
             let row = &mut sheet.rows[index / columns];
             row.top = row.top.max(draft.wish.top);
             row.bottom = row.bottom.max(draft.wish.bottom);
         }
         let keys = legend::keys(&figure.panels);
         let left = sheet.columns[0].left;
+        let right = sheet.columns[columns - 1].right;
         let panels: f64 = sheet
             .columns
             .iter()
-            .map(|c| c.left + figure.plot.0 + RIGHT)
+            .map(|c| c.left + figure.plot.0 + c.right)
             .sum();
         sheet.width = panels.max(left + legend::widest(&keys)) + 2.0 * EDGE;
-        let room = sheet.width - left - RIGHT;
+        let room = sheet.width - left - right.min(RIGHT);
         sheet.title = text::wrap(&figure.title, TITLE, room / BOLDER);
         sheet.legend = legend::rows(&keys, room);
         sheet
@@ -265,8 +272,10 @@ impl Sheet {
 
     fn margins(&self, index: usize) -> Margins {
         let row = self.rows[index / self.columns.len()];
+        let column = self.columns[index % self.columns.len()];
         Margins {
-            left: self.columns[index % self.columns.len()].left,
+            left: column.left,
+            right: column.right,
             ..row
         }
     }
@@ -276,7 +285,7 @@ impl Sheet {
         let (row, column) = (index / self.columns.len(), index % self.columns.len());
         let x: f64 = self.columns[..column]
             .iter()
-            .map(|c| c.left + self.plot.0 + RIGHT)
+            .map(|c| c.left + self.plot.0 + c.right)
             .sum();
         let y: f64 = self.rows[..row]
             .iter()

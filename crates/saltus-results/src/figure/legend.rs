@@ -2,8 +2,8 @@
 //! outside the axes, so it cannot cover data.
 
 use super::colour::Colour;
-use super::marks::{Ink, Step, dashes};
-use super::panel::{Key, Panel, Swatch};
+use super::marks::{Ink, Step, dashes, outline};
+use super::panel::{Key, Panel, Swatch, Tally};
 use super::text;
 use kuva::render::render::{Primitive, TextAnchor};
 
@@ -14,15 +14,41 @@ const ROW: f64 = 21.0;
 /// Space between entries (px).
 const SPACE: f64 = 22.0;
 
-/// Entries of all panels, each label once.
+/// Entries of all panels, each label once; tallies add up, and what never occurs is left out.
 pub(crate) fn keys(panels: &[Panel]) -> Vec<Key> {
     let mut keys: Vec<Key> = Vec::new();
     for key in panels.iter().flat_map(|panel| &panel.keys) {
-        if !keys.iter().any(|known| known.label == key.label) {
-            keys.push(key.clone());
+        match keys.iter_mut().find(|known| known.label == key.label) {
+            Some(known) => {
+                if let (Some(sum), Some(more)) = (&mut known.tally, key.tally) {
+                    sum.cells += more.cells;
+                    sum.total += more.total;
+                    // A share of cells some of which belong to a map without classes would say little.
+                    sum.share &= more.share;
+                }
+            }
+            None => keys.push(key.clone()),
+        }
+    }
+    keys.retain(|key| key.tally.is_none_or(|tally| tally.cells > 0));
+    for key in &mut keys {
+        if let Some(tally) = key.tally.filter(|tally| tally.share) {
+            key.label = format!("{} ({})", key.label, percent(tally));
         }
     }
     keys
+}
+
+/// A share to a tenth of a per cent; what occurs is never 0, and what is not all never 100.
+fn percent(tally: Tally) -> String {
+    let share = 100.0 * tally.cells as f64 / tally.total as f64;
+    if share < 0.1 {
+        "< 0.1 %".to_owned()
+    } else if tally.cells < tally.total && share > 99.9 {
+        "> 99.9 %".to_owned()
+    } else {
+        format!("{share:.1} %")
+    }
 }
 
 /// Width of the widest entry (px).
@@ -82,10 +108,10 @@ pub(crate) fn draw(
 
 /// Room of the swatch (px): a dot needs less than a line.
 fn swatch_width(key: &Key) -> f64 {
-    if matches!(key.swatch, Swatch::Dot { .. }) {
-        12.0
-    } else {
-        26.0
+    match key.swatch {
+        Swatch::Dot { .. } => 12.0,
+        Swatch::Patch { .. } => 18.0,
+        _ => 26.0,
     }
 }
 
@@ -104,6 +130,15 @@ fn swatch(swatch: Swatch, x: f64, y: f64, width: f64, ink: &mut Vec<Ink>) {
                 size: (width, 14.0),
                 colour,
             });
+        }
+        Swatch::Patch { colour } => {
+            let (corner, size) = ((x, y - 7.0), (width, 14.0));
+            ink.push(Ink::Block {
+                corner,
+                size,
+                colour,
+            });
+            ink.push(outline(corner, size, 0.7));
         }
         Swatch::Line {
             width: pen,

@@ -3,6 +3,7 @@
 
 use super::axis::Scale;
 use super::colour::Colour;
+use super::mosaic::Mosaic;
 use super::panel::{Layer, Panel};
 use super::thin::{Stroke, polyline, strokes_within};
 
@@ -83,6 +84,19 @@ pub(crate) enum Ink {
         size: (f64, f64),
         colour: Colour,
     },
+    /// A solid rectangle.
+    Block {
+        corner: (f64, f64),
+        size: (f64, f64),
+        colour: Colour,
+    },
+    /// A solid triangle.
+    Wedge {
+        corners: [(f64, f64); 3],
+        colour: Colour,
+    },
+    /// The cells of a map.
+    Mosaic(Mosaic),
 }
 
 /// One move of a pen (px).
@@ -104,6 +118,13 @@ pub(crate) fn draw(panel: &Panel, frame: &Frame, budget: usize, ink: &mut Vec<In
     }
     for layer in &panel.layers {
         match layer {
+            Layer::Cells(cells) => {
+                let sides = [frame.left, frame.top, frame.right, frame.bottom];
+                ink.extend(cells.place(&frame.x, &frame.y, sides).map(Ink::Mosaic));
+                // The cells cover the inner half of the frame's line.
+                let size = (frame.right - frame.left, frame.bottom - frame.top);
+                ink.push(outline((frame.left, frame.top), size, 1.0));
+            }
             Layer::Bands { intervals, colour } => bands(intervals, *colour, frame, ink),
             Layer::Level { y } => level(*y, frame, ink),
             Layer::Line {
@@ -238,6 +259,22 @@ fn flag(x: f64, frame: &Frame, ink: &mut Vec<Ink>) {
         return;
     };
     ink.push(dashes((x, frame.top), (x, frame.bottom)));
+}
+
+/// The sides of a rectangle, drawn with a pen of `width` (px).
+pub(crate) fn outline((x, y): (f64, f64), size: (f64, f64), width: f64) -> Ink {
+    let steps = vec![
+        Step::Move(x, y),
+        Step::Line(x, y + size.1),
+        Step::Line(x + size.0, y + size.1),
+        Step::Line(x + size.0, y),
+        Step::Line(x, y),
+    ];
+    Ink::Trail {
+        steps,
+        width,
+        colour: Colour::BLACK,
+    }
 }
 
 /// A dashed straight line. The dashes are drawn one by one, so that both backends agree on them.

@@ -3,8 +3,8 @@
 //! kuva draws the axes, ticks and all type; the marks between the axes are ours, because a cloud of
 //! 200 000 points needs thinning and one path instead of one element per point.
 //!
-//! Build one of [`Cloud`], [`Portrait`], [`History`] or [`Curves`], hand it to [`Figure::new`], or
-//! several as panels to [`Figure::grid`]. Points that are not finite are skipped, empty series are
+//! Build one of [`Cloud`], [`Portrait`], [`History`], [`Curves`], [`ClassMap`] or [`ValueMap`], hand it to
+//! [`Figure::new`], or several as panels to [`Figure::grid`]. Points that are not finite are skipped, empty series are
 //! fine, and constant data get a sensible range: a figure cannot fail, only a PNG's size can.
 //!
 //! ```
@@ -17,16 +17,20 @@
 //! ```
 
 mod axis;
+mod bar;
 mod cloud;
 mod colour;
 mod compose;
 mod curves;
 mod history;
 mod legend;
+mod map;
 mod marks;
+mod mosaic;
 mod panel;
 mod portrait;
 mod raster;
+mod scale;
 mod text;
 mod thin;
 mod vector;
@@ -36,8 +40,10 @@ pub use cloud::Cloud;
 pub use colour::Colour;
 pub use curves::Curves;
 pub use history::History;
+pub use map::{Class, ClassMap, Grid, ValueMap};
 pub use panel::Panel;
 pub use portrait::Portrait;
+pub use scale::ColourScale;
 
 use crate::ResultsError;
 
@@ -105,7 +111,7 @@ impl Figure {
         self
     }
 
-    /// The figure as SVG text: vectors only, white ground, scalable.
+    /// The figure as SVG text: white ground, scalable, vectors except for the cells of maps.
     pub fn svg(&self) -> String {
         vector::svg(compose::drawing(self))
     }

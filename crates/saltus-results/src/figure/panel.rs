@@ -1,10 +1,13 @@
-//! One panel: two axes and the layers between them. The four kinds of figure only fill one in.
+//! One panel: two axes and the layers between them. The kinds of figure only fill one in.
 
 use super::axis::{Axis, Extent};
+use super::bar::Bar;
 use super::colour::Colour;
+use super::mosaic::Cells;
 
 /// One panel of a figure. Made from a [`Cloud`](super::Cloud), [`Portrait`](super::Portrait),
-/// [`History`](super::History) or [`Curves`](super::Curves) by `into()`.
+/// [`History`](super::History), [`Curves`](super::Curves), [`ClassMap`](super::ClassMap) or
+/// [`ValueMap`](super::ValueMap) by `into()`.
 #[derive(Clone, Debug)]
 pub struct Panel {
     pub(crate) title: String,
@@ -16,6 +19,8 @@ pub struct Panel {
     /// Vertical lines at `x`, labelled above the frame.
     pub(crate) flags: Vec<(f64, String)>,
     pub(crate) keys: Vec<Key>,
+    /// The scale of the colours, at the right of the frame.
+    pub(crate) bar: Option<Bar>,
 }
 
 /// What is drawn between the axes, from back to front.
@@ -50,6 +55,8 @@ pub(crate) enum Layer {
         radius: f64,
         colour: Colour,
     },
+    /// The cells of a map, which hide the lines of the grid.
+    Cells(Cells),
 }
 
 /// An entry of the legend.
@@ -57,6 +64,17 @@ pub(crate) enum Layer {
 pub(crate) struct Key {
     pub(crate) label: String,
     pub(crate) swatch: Swatch,
+    /// How often it occurs, if that matters; what does not occur is not shown.
+    pub(crate) tally: Option<Tally>,
+}
+
+/// Cells of a class among all cells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Tally {
+    pub(crate) cells: usize,
+    pub(crate) total: usize,
+    /// Whether the legend says it.
+    pub(crate) share: bool,
 }
 
 /// How a legend entry shows its layer.
@@ -75,6 +93,9 @@ pub(crate) enum Swatch {
     Shade {
         colour: Colour,
     },
+    Patch {
+        colour: Colour,
+    },
 }
 
 impl Panel {
@@ -87,13 +108,19 @@ impl Panel {
             layers: Vec::new(),
             flags: Vec::new(),
             keys: Vec::new(),
+            bar: None,
         }
     }
 
     /// Adds a legend entry; an empty label adds none.
     pub(crate) fn key(&mut self, label: String, swatch: Swatch) {
         if !label.is_empty() {
-            self.keys.push(Key { label, swatch });
+            let tally = None;
+            self.keys.push(Key {
+                label,
+                swatch,
+                tally,
+            });
         }
     }
 
@@ -112,6 +139,10 @@ impl Layer {
         match self {
             // Shades lie behind the data and must not stretch the axis beyond it.
             Self::Bands { .. } => {}
+            Self::Cells(cells) => {
+                cells.x.iter().for_each(|&x| across.include(&panel.x, x));
+                cells.y.iter().for_each(|&y| up.include(&panel.y, y));
+            }
             Self::Level { y } => up.include(&panel.y, *y),
             Self::Line { x, y, .. } | Self::Dust { x, y, .. } | Self::Dots { x, y, .. } => {
                 for (&x, &y) in x.iter().zip(y) {

@@ -7,6 +7,7 @@
 use super::colour::Colour;
 use super::compose::Drawing;
 use super::marks::{Ink, RIM, SHADE, Step};
+use super::mosaic::{Mosaic, Raster};
 use super::text;
 use crate::ResultsError;
 use kuva::RasterBackend;
@@ -203,11 +204,29 @@ fn draw(mark: &Ink, image: &mut Pixmap, transform: Transform) {
                 None,
             );
         }
-        Ink::Shade {
+        Ink::Mosaic(mosaic) => tile(mosaic, image, f64::from(transform.sx)),
+        Ink::Wedge { corners, colour } => {
+            let [a, b, c] = corners.map(|(x, y)| (x as f32, y as f32));
+            let mut builder = PathBuilder::new();
+            builder.move_to(a.0, a.1);
+            builder.line_to(b.0, b.1);
+            builder.line_to(c.0, c.1);
+            builder.close();
+            let Some(path) = builder.finish() else { return };
+            let paint = paint(*colour, 1.0);
+            image.fill_path(&path, &paint, FillRule::Winding, transform, None);
+        }
+        Ink::Block {
+            corner,
+            size,
+            colour,
+        }
+        | Ink::Shade {
             corner,
             size,
             colour,
         } => {
+            let solid = matches!(mark, Ink::Block { .. });
             let rect = Rect::from_xywh(
                 corner.0 as f32,
                 corner.1 as f32,
@@ -215,7 +234,37 @@ fn draw(mark: &Ink, image: &mut Pixmap, transform: Transform) {
                 size.1 as f32,
             );
             let Some(rect) = rect else { return };
-            image.fill_rect(rect, &paint(*colour, SHADE), transform, None);
+            let opacity = if solid { 1.0 } else { SHADE };
+            image.fill_rect(rect, &paint(*colour, opacity), transform, None);
+        }
+    }
+}
+
+/// Gives each pixel of the image that a cell covers the colour of the cell.
+fn tile(mosaic: &Mosaic, image: &mut Pixmap, scale: f64) {
+    let [left, top, right, bottom] = mosaic.shown.map(|side| (side * scale).round() as usize);
+    let (right, bottom) = (
+        right.min(image.width() as usize),
+        bottom.min(image.height() as usize),
+    );
+    let size = (right.saturating_sub(left), bottom.saturating_sub(top));
+    if size.0 == 0 || size.1 == 0 {
+        return;
+    }
+    let step = 1.0 / scale;
+    let codes = mosaic.sample(Raster {
+        x: left as f64 * step,
+        y: top as f64 * step,
+        step: (step, step),
+        size,
+    });
+    let width = image.width() as usize;
+    for (row, codes) in codes.chunks(size.0).enumerate() {
+        let start = 4 * ((top + row) * width + left);
+        let pixels = &mut image.data_mut()[start..start + 4 * size.0];
+        for (pixel, &code) in pixels.chunks_exact_mut(4).zip(codes) {
+            let Colour(red, green, blue) = mosaic.colours[usize::from(code)];
+            pixel.copy_from_slice(&[red, green, blue, 255]);
         }
     }
 }

@@ -1,7 +1,11 @@
 //! The SVG backend: kuva's for axes and type, with our marks as few and short paths.
 
+use super::colour::Colour;
 use super::compose::Drawing;
 use super::marks::{Ink, RIM, SHADE, Step};
+use super::mosaic::Mosaic;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use kuva::backend::svg::SvgBackend;
 use kuva::render::color::Color;
 use kuva::render::render::{PathData, Primitive};
@@ -16,20 +20,117 @@ pub(crate) fn svg(drawing: Drawing) -> String {
         title: None,
         extra_attrs: Some(attributes),
     });
-    scene.elements.extend(ink.iter().map(primitive));
+    let mut images = Vec::new();
+    for mark in &ink {
+        match mark {
+            Ink::Mosaic(mosaic) => {
+                scene.elements.extend(place_of_image(images.len()));
+                images.push(image(mosaic));
+            }
+            _ => scene.elements.extend(primitive(mark)),
+        }
+    }
     scene.add(Primitive::GroupEnd);
     let view = format!(
         "<svg viewBox=\"0 0 {} {}\" role=\"img\" ",
         scene.width, scene.height
     );
     // kuva writes a size but no view box, without which a viewer cuts instead of scaling.
-    SvgBackend::new()
+    let mut svg = SvgBackend::new()
         .render_scene(&scene)
-        .replacen("<svg ", &view, 1)
+        .replacen("<svg ", &view, 1);
+    for (number, image) in images.iter().enumerate() {
+        let place = format!("<g {}>", image_mark(number));
+        svg = svg.replacen(&place, &format!("<g>{image}"), 1);
+    }
+    svg
 }
 
-fn primitive(ink: &Ink) -> Primitive {
-    match ink {
+/// kuva knows no images: an empty group keeps the place of one.
+fn place_of_image(number: usize) -> [Primitive; 2] {
+    let start = Primitive::GroupStart {
+        transform: None,
+        title: None,
+        extra_attrs: Some(image_mark(number)),
+    };
+    [start, Primitive::GroupEnd]
+}
+
+fn image_mark(number: usize) -> String {
+    format!("data-cells=\"{number}\"")
+}
+
+/// The cells as an image that a viewer stretches without smoothing.
+fn image(mosaic: &Mosaic) -> String {
+    let raster = mosaic.blocks();
+    // Writing to memory does not fail; an image without content shows nothing.
+    let png = indexed(raster.size, &mosaic.colours, &mosaic.sample(raster)).unwrap_or_default();
+    let [left, top, right, bottom] = mosaic.shown;
+    format!(
+        "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" \
+         image-rendering=\"optimizeSpeed\" style=\"image-rendering:pixelated\" \
+         href=\"data:image/png;base64,{}\"/>",
+        Short(left),
+        Short(top),
+        Short(right - left),
+        Short(bottom - top),
+        STANDARD.encode(png)
+    )
+}
+
+/// A PNG of one byte for each pixel, the index of its colour.
+fn indexed(
+    size: (usize, usize),
+    colours: &[Colour],
+    codes: &[u8],
+) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, size.0 as u32, size.1 as u32);
+    encoder.set_color(png::ColorType::Indexed);
+    encoder.set_depth(png::BitDepth::Eight);
+    let palette: Vec<u8> = colours.iter().flat_map(|c| [c.0, c.1, c.2]).collect();
+    encoder.set_palette(palette);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(codes)?;
+    writer.finish()?;
+    Ok(bytes)
+}
+
+fn primitive(ink: &Ink) -> Option<Primitive> {
+    Some(match ink {
+        Ink::Mosaic(_) => return None,
+        Ink::Wedge {
+            corners: [a, b, c],
+            colour,
+        } => {
+            let steps = [
+                Step::Move(a.0, a.1),
+                Step::Line(b.0, b.1),
+                Step::Line(c.0, c.1),
+            ];
+            Primitive::Path(Box::new(PathData {
+                d: path(&steps) + "Z",
+                fill: Some((*colour).into()),
+                stroke: (*colour).into(),
+                stroke_width: 0.0,
+                opacity: None,
+                stroke_dasharray: None,
+            }))
+        }
+        Ink::Block {
+            corner,
+            size,
+            colour,
+        } => Primitive::Rect {
+            x: corner.0,
+            y: corner.1,
+            width: size.0,
+            height: size.1,
+            fill: (*colour).into(),
+            stroke: None,
+            stroke_width: None,
+            opacity: None,
+        },
         Ink::Trail {
             steps,
             width,
@@ -69,7 +170,7 @@ fn primitive(ink: &Ink) -> Primitive {
             stroke_width: None,
             opacity: Some(SHADE),
         },
-    }
+    })
 }
 
 /// Path data to a hundredth of a pixel; a vertical stroke, of which clouds have many, is a short `v`.

@@ -1,0 +1,246 @@
+//! Datasets: arrays over named dimensions with units, written as one NetCDF-4 file.
+//!
+//! A [`Dataset`] is what xarray calls by that name: coordinates, variables over some of them, and
+//! attributes, by the Climate and Forecast conventions (CF-1.11). `xarray.open_dataset` reads the file with
+//! either engine, h5netcdf or netcdf4, and every value comes back to the same bits.
+//!
+//! ```
+//! use saltus_results::{Dataset, Variable};
+//! # fn main() -> Result<(), saltus_results::ResultsError> {
+//! let period = vec![1_u8, 2, 0, 1, 1, 4];
+//! let dataset = Dataset::new("Attractors of a map")
+//!     .attribute("source", "saltus 0.1.0")
+//!     .coordinate(Variable::coordinate("ratio", vec![0.9, 1.0, 1.1]).long_name("Frequency ratio").units("1"))
+//!     .coordinate(Variable::coordinate("zeta", vec![0.1, 0.2]).long_name("Damping ratio").units("1"))
+//!     .variable(
+//!         Variable::new("period", &["zeta", "ratio"], period)
+//!             .long_name("Period of the motion")
+//!             .flags([(0, "not_periodic"), (1, "period_1"), (2, "period_2"), (4, "period_4")]),
+//!     );
+//! assert!(dataset.to_bytes()?.starts_with(b"\x89HDF\r\n\x1a\n"));
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! Files of equal datasets are equal to the byte: no time of writing is kept.
+
+mod check;
+mod file;
+
+use crate::ResultsError;
+
+/// Arrays over named dimensions, on their way into a file.
+#[derive(Clone, Debug)]
+pub struct Dataset {
+    dimensions: Vec<(String, usize)>,
+    variables: Vec<Variable>,
+    attributes: Vec<(String, Attribute)>,
+}
+
+/// One array of a [`Dataset`] with its attributes.
+#[derive(Clone, Debug)]
+pub struct Variable {
+    name: String,
+    dimensions: Vec<String>,
+    values: Values,
+    attributes: Vec<(String, Attribute)>,
+    flags: Vec<(i32, String)>,
+    fill: Option<i32>,
+}
+
+/// The values of a [`Variable`], in rows: the last dimension varies fastest.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Values {
+    /// Double precision; NaN where there is no value.
+    F64(Vec<f64>),
+    /// Single precision; NaN where there is no value.
+    F32(Vec<f32>),
+    /// Whole numbers with a sign, four bytes each.
+    I32(Vec<i32>),
+    /// Whole numbers, two bytes each.
+    U16(Vec<u16>),
+    /// Whole numbers, one byte each.
+    U8(Vec<u8>),
+}
+
+/// The value of an attribute.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Attribute {
+    /// A text of any length.
+    Text(String),
+    /// A number.
+    Number(f64),
+    /// A whole number.
+    Integer(i32),
+    /// Several numbers.
+    Numbers(Vec<f64>),
+}
+
+impl Dataset {
+    /// An empty dataset with the attributes `title` and `Conventions`.
+    pub fn new(title: impl Into<String>) -> Self {
+        let empty = Self {
+            dimensions: Vec::new(),
+            variables: Vec::new(),
+            attributes: Vec::new(),
+        };
+        empty
+            .attribute("Conventions", "CF-1.11")
+            .attribute("title", title.into())
+    }
+
+    /// Says something about the whole dataset, such as its `source`, `history` or settings. The value may
+    /// be a text, a number or several.
+    #[must_use]
+    pub fn attribute(mut self, name: impl Into<String>, value: impl Into<Attribute>) -> Self {
+        set(&mut self.attributes, name.into(), value.into());
+        self
+    }
+
+    /// Adds a dimension together with the values along it: `variable` comes from [`Variable::coordinate`].
+    #[must_use]
+    pub fn coordinate(mut self, variable: Variable) -> Self {
+        self.dimensions
+            .push((variable.name.clone(), variable.values.len()));
+        self.variables.push(variable);
+        self
+    }
+
+    /// Adds a dimension of `length` without values along it.
+    #[must_use]
+    pub fn dimension(mut self, name: impl Into<String>, length: usize) -> Self {
+        self.dimensions.push((name.into(), length));
+        self
+    }
+
+    /// Adds an array over dimensions that are, or will be, part of the dataset.
+    #[must_use]
+    pub fn variable(mut self, variable: Variable) -> Self {
+        self.variables.push(variable);
+        self
+    }
+
+    /// The file as bytes. While it is made, each array is in memory once as it is and twice compressed.
+    ///
+    /// # Errors
+    /// [`ResultsError::Dataset`], which names the part that does not fit: a dimension that is missing,
+    /// empty or given twice, a wrong number of values, a name that NetCDF does not allow.
+    pub fn to_bytes(self) -> Result<Vec<u8>, ResultsError> {
+        check::check(&self)?;
+        file::encode(self)
+    }
+}
+
+impl Variable {
+    /// An array over the named `dimensions`, the last of which varies fastest.
+    pub fn new(name: impl Into<String>, dimensions: &[&str], values: impl Into<Values>) -> Self {
+        Self {
+            name: name.into(),
+            dimensions: dimensions.iter().map(|&name| name.to_owned()).collect(),
+            values: values.into(),
+            attributes: Vec::new(),
+            flags: Vec::new(),
+            fill: None,
+        }
+    }
+
+    /// The values along the dimension of the same name, for [`Dataset::coordinate`].
+    pub fn coordinate(name: impl Into<String>, values: impl Into<Values>) -> Self {
+        let name = name.into();
+        Self::new(name.clone(), &[&name], values)
+    }
+
+    /// The attribute `units`, as "Hz" or "m s-2"; "1" for a ratio.
+    #[must_use]
+    pub fn units(self, units: impl Into<String>) -> Self {
+        self.attribute("units", units.into())
+    }
+
+    /// The attribute `long_name`, a label for axes.
+    #[must_use]
+    pub fn long_name(self, name: impl Into<String>) -> Self {
+        self.attribute("long_name", name.into())
+    }
+
+    /// Says what the whole numbers in the array mean, by the attributes `flag_values` and `flag_meanings`.
+    /// A meaning is one word there; spaces within become `_`.
+    #[must_use]
+    pub fn flags<T: Into<String>>(mut self, meanings: impl IntoIterator<Item = (i32, T)>) -> Self {
+        let meanings = meanings.into_iter();
+        self.flags = meanings.map(|(value, word)| (value, word.into())).collect();
+        self
+    }
+
+    /// The value that stands for "no value" in an array of whole numbers, as the attribute `_FillValue`.
+    /// xarray then reads the array as floating-point numbers with NaN; for discrete labels a flag of their
+    /// own is better. Arrays of floating-point numbers have NaN for it without being told.
+    #[must_use]
+    pub fn fill(mut self, value: i32) -> Self {
+        self.fill = Some(value);
+        self
+    }
+
+    /// Any other attribute.
+    #[must_use]
+    pub fn attribute(mut self, name: impl Into<String>, value: impl Into<Attribute>) -> Self {
+        set(&mut self.attributes, name.into(), value.into());
+        self
+    }
+}
+
+/// Attributes keep the order in which they were first given; a later value replaces an earlier one.
+fn set(attributes: &mut Vec<(String, Attribute)>, name: String, value: Attribute) {
+    match attributes.iter_mut().find(|known| known.0 == name) {
+        Some(known) => known.1 = value,
+        None => attributes.push((name, value)),
+    }
+}
+
+impl Values {
+    /// Number of values.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::F64(values) => values.len(),
+            Self::F32(values) => values.len(),
+            Self::I32(values) => values.len(),
+            Self::U16(values) => values.len(),
+            Self::U8(values) => values.len(),
+        }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// Conversions from the types that a variant holds.
+macro_rules! holds {
+    ($($target:ident :: $variant:ident ($source:ty)),*) => {
+        $(impl From<$source> for $target {
+            fn from(value: $source) -> Self {
+                Self::$variant(value)
+            }
+        })*
+    };
+}
+
+holds!(
+    Values::F64(Vec<f64>),
+    Values::F32(Vec<f32>),
+    Values::I32(Vec<i32>),
+    Values::U16(Vec<u16>),
+    Values::U8(Vec<u8>),
+    Attribute::Text(String),
+    Attribute::Number(f64),
+    Attribute::Integer(i32),
+    Attribute::Numbers(Vec<f64>)
+);
+
+impl From<&str> for Attribute {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}

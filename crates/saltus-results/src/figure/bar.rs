@@ -1,0 +1,142 @@
+//! The colour bar at the right of a map: which colour stands for which value.
+
+use super::axis::Scale;
+use super::colour::Colour;
+use super::compose::{EDGE, LABEL, TICK};
+use super::marks::{Frame, Ink, Step, outline};
+use super::mosaic::{Cells, Mixing};
+use super::text;
+use kuva::render::render::{Primitive, TextAnchor};
+
+/// Distance from the frame, width of the bar, length of ticks, distance of texts (px).
+const GAP: f64 = 16.0;
+const WIDTH: f64 = 16.0;
+const TICKS: f64 = 5.0;
+const SPACE: f64 = 4.0;
+/// Height of a line of the label, and of the arrow at an end that has values beyond it (px).
+const LINE: f64 = 18.0;
+const ARROW: f64 = 12.0;
+
+/// A colour scale with its axis.
+#[derive(Clone, Debug)]
+pub(crate) struct Bar {
+    pub(crate) label: String,
+    pub(crate) scale: Scale,
+    /// From the lowest value to the highest.
+    pub(crate) colours: Vec<Colour>,
+    /// Whether values lie below the lowest, or above the highest, that the scale shows.
+    pub(crate) below: bool,
+    pub(crate) above: bool,
+}
+
+impl Bar {
+    /// Room at the right of a frame of the given height (px).
+    pub(crate) fn width(&self, height: f64) -> f64 {
+        let lines = text::wrap(&self.label, LABEL, height).len() as f64;
+        self.label_start() + lines * LINE + EDGE
+    }
+
+    /// Distance from the frame to the label (px).
+    fn label_start(&self) -> f64 {
+        let ticks = self.scale.ticks();
+        let widest = ticks
+            .iter()
+            .map(|tick| text::width(&tick.1, TICK))
+            .fold(0.0, f64::max);
+        GAP + WIDTH + TICKS + SPACE + widest + 2.0 * SPACE
+    }
+
+    /// Draws the bar beside `frame`, as high as that.
+    pub(crate) fn draw(&self, frame: &Frame, words: &mut Vec<Primitive>, ink: &mut Vec<Ink>) {
+        let left = frame.right + GAP;
+        let room = |arrow: bool| if arrow { ARROW } else { 0.0 };
+        let (top, bottom) = (
+            frame.top + room(self.above),
+            frame.bottom - room(self.below),
+        );
+        self.arrows(left, (top, bottom), ink);
+        ink.extend(self.gradient(left, (top, bottom)));
+        ink.push(outline((left, top), (WIDTH, bottom - top), 1.0));
+        let scale = self.scale.clone().between(bottom, top);
+        for (y, label) in scale.ticks() {
+            let from = left + WIDTH;
+            ink.push(Ink::Trail {
+                steps: vec![Step::Move(from, y), Step::Line(from + TICKS, y)],
+                width: 1.0,
+                colour: Colour::BLACK,
+            });
+            words.push(Primitive::Text {
+                x: from + TICKS + SPACE,
+                y: y + 0.36 * f64::from(TICK),
+                content: label,
+                size: TICK,
+                anchor: TextAnchor::Start,
+                rotate: None,
+                bold: false,
+                color: Some(Colour::BLACK.into()),
+            });
+        }
+        let middle = 0.5 * (frame.top + frame.bottom);
+        let lines = text::wrap(&self.label, LABEL, frame.bottom - frame.top);
+        for (number, line) in lines.into_iter().enumerate() {
+            words.push(Primitive::Text {
+                x: frame.right + self.label_start() + (number as f64 + 0.75) * LINE,
+                y: middle,
+                content: line,
+                size: LABEL,
+                anchor: TextAnchor::Middle,
+                rotate: Some(-90.0),
+                bold: false,
+                color: Some(Colour::BLACK.into()),
+            });
+        }
+    }
+
+    /// The colours as cells of a map one cell wide.
+    fn gradient(&self, left: f64, (top, bottom): (f64, f64)) -> Option<Ink> {
+        let steps = self.colours.len();
+        let cells = Cells {
+            x: vec![0.0, 1.0],
+            y: (0..=steps).map(|step| step as f64 / steps as f64).collect(),
+            codes: (0..steps).map(|step| step as u8).collect(),
+            colours: self.colours.clone(),
+            mixing: Mixing::Largest,
+        };
+        let right = left + WIDTH;
+        let (x, y) = (
+            Scale::of_unit().between(left, right),
+            Scale::of_unit().between(bottom, top),
+        );
+        cells
+            .place(&x, &y, [left, top, right, bottom])
+            .map(Ink::Mosaic)
+    }
+
+    /// Arrows at the ends that have values beyond them.
+    fn arrows(&self, left: f64, (top, bottom): (f64, f64), ink: &mut Vec<Ink>) {
+        let ends = [
+            (self.above, top, -ARROW, self.colours.last()),
+            (self.below, bottom, ARROW, self.colours.first()),
+        ];
+        for (shown, base, height, colour) in ends {
+            let Some(&colour) = colour.filter(|_| shown) else {
+                continue;
+            };
+            let corners = [
+                (left, base),
+                (left + 0.5 * WIDTH, base + height),
+                (left + WIDTH, base),
+            ];
+            ink.push(Ink::Wedge { corners, colour });
+            ink.push(Ink::Trail {
+                steps: vec![
+                    Step::Move(corners[0].0, corners[0].1),
+                    Step::Line(corners[1].0, corners[1].1),
+                    Step::Line(corners[2].0, corners[2].1),
+                ],
+                width: 1.0,
+                colour: Colour::BLACK,
+            });
+        }
+    }
+}
