@@ -68,7 +68,7 @@ impl<S: Simd> Arith for Wide<S> {
     type V = f64x8<S>;
     #[inline(always)]
     fn load(self, cell: &Pack) -> f64x8<S> {
-        f64x8::from_slice(self.0, &cell.0)
+        f64x8::load_array_ref(self.0, &cell.0)
     }
     #[inline(always)]
     fn store(self, value: f64x8<S>) -> Pack {

@@ -1,29 +1,94 @@
 //! From a builder's parts to the flat program that the series code runs.
 
+use crate::adiabatic::Adiabatic;
 use crate::system::{BuildError, Node, RawOp, Transition};
 
-/// One step of the program. Nodes are flat indices: states first, then operations.
-#[derive(Clone, Debug, PartialEq)]
+/// What a step of the program computes. Nodes are flat indices: states first, then operations.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Op {
-    /// out = c + sum of coefficient times node; the constant's coefficient is followed by those of
-    /// the terms.
-    Linear {
-        out: usize,
-        constant: usize,
-        terms: (usize, usize),
-    },
-    /// out, out + 1, ... = rows of a matrix times the same nodes; `weights` are coefficients by rows.
+    /// Some groups of [`Structure::groups`], one after the other.
+    Linear { groups: (usize, usize) },
+    /// Rows of a matrix times the same nodes (in [`Structure::terms`]). The weights are in the stream,
+    /// by fours of rows and the rest; within these, node by node.
     Matrix {
-        out: usize,
-        weights: (usize, usize),
+        out: Place,
+        rows: usize,
+        weights: usize,
         nodes: (usize, usize),
     },
-    /// out = sum of products.
-    Dot { out: usize, pairs: (usize, usize) },
-    /// out, out + 1, ... = one product each.
-    Products { out: usize, pairs: (usize, usize) },
-    /// Keeps the node's coefficients in reverse as well: it is the second factor of a product.
-    Mirror { mirror: usize, node: usize },
+    /// Squares of neighbours from this slot on.
+    Squares {
+        out: usize,
+        count: usize,
+        factor: usize,
+    },
+    /// Products of neighbours from one slot on with those from another on.
+    Products {
+        out: usize,
+        count: usize,
+        factors: [usize; 2],
+    },
+    /// Nodes that were computed in all orders beforehand, from these slots on.
+    Recall {
+        out: usize,
+        slot: usize,
+        count: usize,
+    },
+    /// Squares q of neighbours y, t = A q + added, and products y t: see `Structure::cubics`.
+    Cubic(usize),
+}
+
+/// A [`Op::Cubic`].
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Cubic {
+    /// First of the `count` nodes for the squares; those for the products follow.
+    pub(crate) out: usize,
+    pub(crate) count: usize,
+    /// First slots of y and t.
+    pub(crate) y: usize,
+    pub(crate) t: usize,
+    /// First of `count` nodes to add to A q, if there are any.
+    pub(crate) added: Option<usize>,
+    /// A is zero outside its first `heads` rows and columns, but for `extra`.
+    pub(crate) heads: usize,
+    /// Begin in the stream: the first rows, then the other rows up to column `heads`; both by fours.
+    pub(crate) weights: usize,
+    /// (row, column, place in the stream).
+    pub(crate) extra: Vec<(usize, usize, usize)>,
+}
+
+/// Where the results of an operation go, one after the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Place {
+    /// To nodes, for the order in hand only (and from there to the slots in [`Step::keeps`]).
+    Now(usize),
+    /// To slots at once: nothing but products reads them.
+    Kept(usize),
+}
+
+/// Sums c + sum of coefficient times node with equally many terms, which do not depend on each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Group {
+    /// Where the first goes; the others follow.
+    pub(crate) out: Place,
+    /// How many, at most [`GROUP`].
+    pub(crate) width: usize,
+    pub(crate) terms: usize,
+    /// Begin in the stream: `width` constants, then for each term `width` coefficients.
+    pub(crate) weights: usize,
+    /// Begin in [`Structure::terms`]: for each term `width` nodes.
+    pub(crate) nodes: usize,
+}
+
+/// Most sums in a group.
+pub(crate) const GROUP: usize = 4;
+
+/// One step of a program.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Step {
+    pub(crate) op: Op,
+    /// Which of its nodes to keep, a range of [`Structure::keeps`].
+    pub(crate) keeps: (usize, usize),
 }
 
 /// A transition with everything resolved to indices.
@@ -37,104 +102,539 @@ pub(crate) struct Watch {
     pub(crate) vanishing: Vec<(usize, u8)>,
 }
 
+impl Watch {
+    /// Slot of the guard's coefficients.
+    pub(crate) fn guard_slot(&self, structure: &Structure) -> usize {
+        structure.guard_slots[self.guard]
+    }
+}
+
 /// The program without its numbers: shared by all members of an ensemble.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Structure {
     pub(crate) states: usize,
     pub(crate) nodes: usize,
+    /// Cells in an order: nodes of which all orders are kept, some of them twice.
+    pub(crate) slots: usize,
     /// States that take part in error control: all but the quadratures, which come last.
     pub(crate) controlled: usize,
-    pub(crate) ops: Vec<Op>,
-    /// Nodes of the terms of all linear operations.
-    pub(crate) terms: Vec<usize>,
-    /// (node, mirror) of all products.
-    pub(crate) pairs: Vec<(usize, usize)>,
-    /// Nodes that are second factors.
-    pub(crate) mirrors: Vec<usize>,
+    /// The whole program, and the part of it that the guards need.
+    pub(crate) program: Vec<Step>,
+    pub(crate) guard_program: Vec<Step>,
+    pub(crate) groups: Vec<Group>,
+    /// Coefficients in the order in which the programs read them.
+    pub(crate) stream: Vec<u32>,
+    /// Nodes of the terms of all sums.
+    pub(crate) terms: Vec<u16>,
+    pub(crate) cubics: Vec<Cubic>,
+    /// What follows the rest adiabatically, if anything does.
+    pub(crate) adiabatic: Option<Adiabatic>,
+    /// (node, slot) of what each step keeps.
+    pub(crate) keeps: Vec<(u32, u32)>,
+    /// (node, slot) of the nodes that are in a slot only.
+    pub(crate) kept_only: Vec<(u32, u32)>,
     /// Flat node index of each state's derivative.
     pub(crate) derivative: Vec<usize>,
+    /// The same, with the state's slot.
+    pub(crate) rates: Vec<Rate>,
+    /// A slot of each state.
+    pub(crate) state_slots: Vec<usize>,
+    /// (state, slot) of the states that have a second slot.
+    pub(crate) state_copies: Vec<(usize, usize)>,
     /// Flat node indices of all guards.
     pub(crate) guards: Vec<usize>,
-    /// The program's steps that the guards need, in order.
-    pub(crate) guard_ops: Vec<usize>,
+    /// Their slots.
+    pub(crate) guard_slots: Vec<usize>,
     /// Transitions of each mode of each unit.
     pub(crate) units: Vec<Vec<Vec<Watch>>>,
-    /// (coefficient, unit, offset of its table in `Values::tables`).
+    /// (place in the stream, unit, offset of its table in `System::tables`).
     pub(crate) switched: Vec<(usize, usize, usize)>,
     /// States that hold cos and sin of the drive, if it is driven.
     pub(crate) drive: Option<(usize, usize)>,
 }
 
-impl Watch {
-    /// Flat node index of the guard.
-    pub(crate) fn guard_node(&self, structure: &Structure) -> usize {
-        structure.guards[self.guard]
-    }
+/// How a state moves on: the node that is its rate, and its slot.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Rate {
+    pub(crate) node: u16,
+    pub(crate) slot: u16,
+}
+
+/// Nodes that an index can name.
+pub(crate) const MAX_NODES: usize = 1 << 16;
+
+/// What the builder collected.
+pub(crate) struct Parts<'a> {
+    pub(crate) states: usize,
+    pub(crate) ops: &'a [RawOp],
+    pub(crate) derivative: &'a [Option<Node>],
+    pub(crate) units: &'a [Vec<Vec<Transition>>],
 }
 
 impl Structure {
-    /// A program of `states` states and these operations.
-    pub(crate) fn new(states: usize, raw: &[RawOp]) -> Result<Self, BuildError> {
+    /// The program of these parts.
+    pub(crate) fn new(parts: &Parts<'_>) -> Result<Self, BuildError> {
+        let mut flat = Flattener::new(parts.states);
+        for op in parts.ops {
+            flat.push(op)?;
+        }
+        if flat.nodes > MAX_NODES {
+            return Err(BuildError::TooLarge(flat.nodes));
+        }
         let mut out = Self {
-            states,
-            nodes: states,
-            controlled: states,
+            states: parts.states,
+            nodes: flat.nodes,
+            controlled: parts.states,
             ..Self::default()
         };
-        for op in raw {
-            match op {
-                RawOp::Linear { constant, terms } => {
-                    let start = out.terms.len();
-                    for &node in terms {
-                        let node = out.flat(node)?;
-                        out.terms.push(node);
-                    }
-                    let terms = (start, out.terms.len());
-                    out.ops.push(Op::Linear {
-                        out: out.nodes,
-                        constant: *constant,
-                        terms,
-                    });
-                    out.nodes += 1;
-                }
-                RawOp::Matrix { weights, nodes } => {
-                    let start = out.terms.len();
-                    for &node in nodes {
-                        let node = out.flat(node)?;
-                        out.terms.push(node);
-                    }
-                    let rows = op.nodes();
-                    let nodes = (start, out.terms.len());
-                    out.ops.push(Op::Matrix {
-                        out: out.nodes,
-                        weights: *weights,
-                        nodes,
-                    });
-                    out.nodes += rows;
-                }
-                RawOp::Dot(list) => {
-                    let pairs = out.multiply(list)?;
-                    out.ops.push(Op::Dot {
-                        out: out.nodes,
-                        pairs,
-                    });
-                    out.nodes += 1;
-                }
-                RawOp::Products(list) => {
-                    let pairs = out.multiply(list)?;
-                    out.ops.push(Op::Products {
-                        out: out.nodes,
-                        pairs,
-                    });
-                    out.nodes += list.len();
-                }
-            }
+        for (i, node) in parts.derivative.iter().enumerate() {
+            let node = node.ok_or(BuildError::NoDerivative(i))?;
+            out.derivative.push(flat.index(node)?);
         }
+        for modes in parts.units {
+            let mut resolved = Vec::new();
+            for transitions in modes {
+                let watches: Result<Vec<_>, _> = transitions
+                    .iter()
+                    .map(|t| out.resolve(&flat, t, modes.len()))
+                    .collect();
+                resolved.push(watches?);
+            }
+            out.units.push(resolved);
+        }
+        let slots = Slots::new(&flat, &out.guards, &out.derivative);
+        out.slots = slots.count;
+        out.guard_slots = out.guards.iter().map(|&g| slots.first(g)).collect();
+        out.state_slots = (0..out.states).map(|s| slots.first(s)).collect();
+        let rate = |(&node, &slot): (&usize, &usize)| Rate {
+            node: node as u16,
+            slot: slot as u16,
+        };
+        let rates = out.derivative.iter().zip(&out.state_slots).map(rate);
+        out.rates = rates.collect();
+        let copies = |s: usize| slots.of[s][1..].iter().map(move |&slot| (s, slot as usize));
+        out.state_copies = (0..out.states).flat_map(copies).collect();
+        let needed = flat.needed_by(&out.guards);
+        out.program = out.assemble(&flat, &slots, |_| true);
+        out.guard_program = out.assemble(&flat, &slots, |op| needed[op]);
+        out.kept_only = (0..out.nodes)
+            .filter(|&node| slots.is_kept_only(node))
+            .map(|node| (node as u32, slots.of[node][0]))
+            .collect();
         Ok(out)
     }
 
+    /// Order of the series that values are computed with: 0 unless derivatives are needed for them.
+    pub(crate) fn order_of_values(&self) -> usize {
+        self.adiabatic
+            .as_ref()
+            .map_or(0, |x| 2 * x.corrections() + 1)
+    }
+
+    fn guard(&mut self, flat: &Flattener, node: Node) -> Result<usize, BuildError> {
+        let node = flat.index(node)?;
+        Ok(self
+            .guards
+            .iter()
+            .position(|&g| g == node)
+            .unwrap_or_else(|| {
+                self.guards.push(node);
+                self.guards.len() - 1
+            }))
+    }
+
+    fn resolve(
+        &mut self,
+        flat: &Flattener,
+        t: &Transition,
+        modes: usize,
+    ) -> Result<Watch, BuildError> {
+        if t.to >= modes {
+            return Err(BuildError::Undefined(format!("mode {}", t.to)));
+        }
+        let guard = self.guard(flat, t.guard)?;
+        let mut vanishing = vec![(guard, 1)];
+        for &(node, multiplicity) in &t.vanishing {
+            vanishing.push((self.guard(flat, node)?, multiplicity));
+        }
+        let mut resets = Vec::new();
+        for &(state, value) in &t.resets {
+            resets.push((flat.index(Node::State(state))?, flat.index(value)?));
+        }
+        Ok(Watch {
+            guard,
+            sign: t.sign,
+            to: t.to,
+            resets,
+            vanishing,
+        })
+    }
+
+    /// Turns the wanted operations into steps; neighbouring sums become one.
+    fn assemble(
+        &mut self,
+        flat: &Flattener,
+        slots: &Slots,
+        wanted: impl Fn(usize) -> bool,
+    ) -> Vec<Step> {
+        let mut program: Vec<Step> = Vec::new();
+        let mut pending: Option<Sums> = None;
+        let wanted = flat.ops.iter().enumerate().filter(|(i, _)| wanted(*i));
+        for op in wanted.map(|(_, op)| op) {
+            let kept = self.keeps.len();
+            let place = slots.place(op);
+            if let (Place::Now(_), false) = (place, matches!(op.kind, Kind::Adiabatic { .. })) {
+                let count = op.count - op.kind.hidden();
+                let of = |node: usize| slots.of[node].iter().map(move |&slot| (node as u32, slot));
+                self.keeps.extend((op.out..op.out + count).flat_map(of));
+            }
+            let keeps = (kept, self.keeps.len());
+            let (out, count) = (op.out, op.count);
+            let op = match &op.kind {
+                Kind::Linear { constant, terms } => {
+                    if let Some(sums) = pending.as_mut().filter(|sums| sums.accepts(place, terms)) {
+                        sums.push(*constant, terms);
+                        extend_keeps(&mut program, self.keeps.len());
+                        continue;
+                    }
+                    self.finish(pending.replace(Sums::new(place, *constant, terms)));
+                    // The group is numbered now and written when it is complete.
+                    let group = self.groups.len();
+                    if let Some(Step {
+                        op: Op::Linear { groups },
+                        keeps,
+                    }) = program.last_mut()
+                    {
+                        (groups.1, keeps.1) = (group + 1, self.keeps.len());
+                        continue;
+                    }
+                    Op::Linear {
+                        groups: (group, group + 1),
+                    }
+                }
+                Kind::Matrix { weights, nodes } => {
+                    self.finish(pending.take());
+                    let start = self.terms.len();
+                    self.terms.extend(nodes);
+                    Op::Matrix {
+                        out: place,
+                        rows: count,
+                        weights: self.stream(weights.0..weights.1),
+                        nodes: (start, self.terms.len()),
+                    }
+                }
+                Kind::Squares(factors) => {
+                    self.finish(pending.take());
+                    Op::Squares {
+                        out,
+                        count,
+                        factor: slots.block(factors),
+                    }
+                }
+                Kind::Products(first, second) => {
+                    self.finish(pending.take());
+                    Op::Products {
+                        out,
+                        count,
+                        factors: [slots.block(first), slots.block(second)],
+                    }
+                }
+                Kind::Adiabatic {
+                    x,
+                    sources,
+                    damping,
+                    responses,
+                } => {
+                    self.finish(pending.take());
+                    let size = x.len() * sources.len();
+                    if self.adiabatic.is_none() {
+                        let damping = self.stream(*damping..damping + 1);
+                        let responses = responses
+                            .iter()
+                            .map(|&first| self.stream(first..first + size))
+                            .collect();
+                        self.adiabatic = Some(Adiabatic {
+                            out: slots.block(x),
+                            count: x.len(),
+                            source: slots.block(sources),
+                            sources: sources.len(),
+                            damping,
+                            responses,
+                        });
+                    }
+                    Op::Recall {
+                        out,
+                        slot: slots.block(x),
+                        count,
+                    }
+                }
+                Kind::Cubic {
+                    y,
+                    t,
+                    added,
+                    heads,
+                    weights,
+                    extra,
+                } => {
+                    self.finish(pending.take());
+                    let size = heads * (2 * y.len() - heads);
+                    let place = self.stream(*weights..weights + size);
+                    let extra = extra.iter().map(|&(row, column, weight)| {
+                        (row, column, self.stream(weight..weight + 1))
+                    });
+                    let extra = extra.collect();
+                    self.cubics.push(Cubic {
+                        out,
+                        count: y.len(),
+                        y: slots.block(y),
+                        t: slots.block(t),
+                        added: added.first().map(|&node| node as usize),
+                        heads: *heads,
+                        weights: place,
+                        extra,
+                    });
+                    Op::Cubic(self.cubics.len() - 1)
+                }
+            };
+            program.push(Step { op, keeps });
+        }
+        self.finish(pending);
+        program
+    }
+
+    /// Appends coefficients to the stream; their place.
+    fn stream(&mut self, coefficients: std::ops::Range<usize>) -> usize {
+        let place = self.stream.len();
+        self.stream.extend(coefficients.map(|c| c as u32));
+        place
+    }
+
+    /// Writes a group down.
+    fn finish(&mut self, sums: Option<Sums>) {
+        let Some(Sums { out, rows }) = sums else {
+            return;
+        };
+        let (weights, nodes) = (self.stream.len(), self.terms.len());
+        let terms = rows[0].1.len();
+        self.stream
+            .extend(rows.iter().map(|(constant, _)| *constant as u32));
+        for term in 0..terms {
+            for (constant, nodes) in &rows {
+                self.stream.push((constant + 1 + term) as u32);
+                self.terms.push(nodes[term]);
+            }
+        }
+        self.groups.push(Group {
+            out,
+            width: rows.len(),
+            terms,
+            weights,
+            nodes,
+        });
+    }
+}
+
+/// A group that may still grow.
+struct Sums {
+    out: Place,
+    /// Coefficient of the constant, and the nodes.
+    rows: Vec<(usize, Vec<u16>)>,
+}
+
+impl Sums {
+    fn new(out: Place, constant: usize, nodes: &[u16]) -> Self {
+        Self {
+            out,
+            rows: vec![(constant, nodes.to_vec())],
+        }
+    }
+
+    fn push(&mut self, constant: usize, nodes: &[u16]) {
+        self.rows.push((constant, nodes.to_vec()));
+    }
+
+    /// Whether another sum may join: its result is the next, and it reads none of the others.
+    fn accepts(&self, out: Place, nodes: &[u16]) -> bool {
+        let width = self.rows.len();
+        let next = match (self.out, out) {
+            (Place::Now(first), Place::Now(node)) => {
+                let mine = first..first + width;
+                node == mine.end && !nodes.iter().any(|&node| mine.contains(&(node as usize)))
+            }
+            (Place::Kept(first), Place::Kept(slot)) => slot == first + width,
+            _ => false,
+        };
+        next && width < GROUP && self.rows[0].1.len() == nodes.len()
+    }
+}
+
+/// The last step keeps what has been added to the list.
+fn extend_keeps(program: &mut [Step], end: usize) {
+    if let Some(step) = program.last_mut() {
+        step.keeps.1 = end;
+    }
+}
+
+/// Which nodes keep all their orders, and where: the factors of products side by side, as the products
+/// are listed, then states and guards that are no factors.
+struct Slots {
+    count: usize,
+    /// Slots of each node.
+    of: Vec<Vec<u32>>,
+    /// Factor lists that have neighbouring slots.
+    blocks: Vec<(Vec<u16>, usize)>,
+    /// Whether a sum, a derivative, or anything but a product reads the node.
+    is_read: Vec<bool>,
+}
+
+impl Slots {
+    fn new(flat: &Flattener, guards: &[usize], derivative: &[usize]) -> Self {
+        let mut slots = Self {
+            count: 0,
+            of: vec![Vec::new(); flat.nodes],
+            blocks: Vec::new(),
+            is_read: vec![false; flat.nodes],
+        };
+        for op in &flat.ops {
+            match &op.kind {
+                Kind::Linear { terms: nodes, .. } | Kind::Matrix { nodes, .. } => {
+                    nodes
+                        .iter()
+                        .for_each(|&node| slots.is_read[node as usize] = true);
+                }
+                Kind::Squares(factors) => slots.add(factors),
+                Kind::Products(first, second) => {
+                    slots.add(first);
+                    slots.add(second);
+                }
+                Kind::Cubic { y, t, .. } => {
+                    slots.add(y);
+                    slots.add(t);
+                }
+                Kind::Adiabatic { x, sources, .. } => {
+                    slots.add(x);
+                    slots.add(sources);
+                }
+            }
+        }
+        for &node in derivative {
+            slots.is_read[node] = true;
+        }
+        for node in (0..flat.states).chain(guards.iter().copied()) {
+            slots.is_read[node] = true;
+            if slots.of[node].is_empty() {
+                slots.add(&[node as u16]);
+            }
+        }
+        slots
+    }
+
+    /// Neighbouring slots for these nodes, unless they have such.
+    fn add(&mut self, nodes: &[u16]) {
+        if self.blocks.iter().any(|(known, _)| known == nodes) {
+            return;
+        }
+        self.blocks.push((nodes.to_vec(), self.count));
+        for &node in nodes {
+            self.of[node as usize].push(self.count as u32);
+            self.count += 1;
+        }
+    }
+
+    /// The first slot of a list that was added.
+    fn block(&self, nodes: &[u16]) -> usize {
+        let known = self.blocks.iter().find(|(known, _)| known == nodes);
+        known.map_or(usize::MAX, |(_, slot)| *slot)
+    }
+
+    /// A slot of a node that has one.
+    fn first(&self, node: usize) -> usize {
+        self.of[node][0] as usize
+    }
+
+    fn is_kept_only(&self, node: usize) -> bool {
+        !self.is_read[node] && self.of[node].len() == 1
+    }
+
+    /// Where the results of an operation go.
+    fn place(&self, op: &FlatOp) -> Place {
+        let may = matches!(op.kind, Kind::Linear { .. } | Kind::Matrix { .. });
+        let nodes = op.out..op.out + op.count;
+        let neighbours = |(i, node): (usize, usize)| {
+            self.is_kept_only(node) && self.first(node) == self.first(op.out) + i
+        };
+        if may && nodes.enumerate().all(neighbours) {
+            Place::Kept(self.first(op.out))
+        } else {
+            Place::Now(op.out)
+        }
+    }
+}
+
+/// An operation with flat indices.
+struct FlatOp {
+    out: usize,
+    count: usize,
+    kind: Kind,
+}
+
+enum Kind {
+    Linear {
+        constant: usize,
+        terms: Vec<u16>,
+    },
+    Matrix {
+        weights: (usize, usize),
+        nodes: Vec<u16>,
+    },
+    Squares(Vec<u16>),
+    Products(Vec<u16>, Vec<u16>),
+    Adiabatic {
+        /// Its own nodes.
+        x: Vec<u16>,
+        sources: Vec<u16>,
+        damping: usize,
+        responses: Vec<usize>,
+    },
+    Cubic {
+        y: Vec<u16>,
+        /// Nodes that stand for t; they live in their slots only.
+        t: Vec<u16>,
+        added: Vec<u16>,
+        heads: usize,
+        weights: usize,
+        extra: Vec<(usize, usize, usize)>,
+    },
+}
+
+impl Kind {
+    /// Nodes at the end of its output that are never in hand.
+    fn hidden(&self) -> usize {
+        match self {
+            Self::Cubic { t, .. } => t.len(),
+            _ => 0,
+        }
+    }
+}
+
+/// Numbers nodes in the order of the program.
+struct Flattener {
+    states: usize,
+    nodes: usize,
+    ops: Vec<FlatOp>,
+}
+
+impl Flattener {
+    fn new(states: usize) -> Self {
+        Self {
+            states,
+            nodes: states,
+            ops: Vec::new(),
+        }
+    }
+
     /// Flat index of a node defined so far.
-    fn flat(&self, node: Node) -> Result<usize, BuildError> {
+    fn index(&self, node: Node) -> Result<usize, BuildError> {
         let index = match node {
             Node::State(i) if i < self.states => i,
             Node::Op(i) => self.states + i,
@@ -146,126 +646,96 @@ impl Structure {
             .ok_or_else(|| BuildError::Undefined(format!("{node:?}")))
     }
 
-    /// Appends products, mirroring second factors that have no mirror yet.
-    fn multiply(&mut self, list: &[(Node, Node)]) -> Result<(usize, usize), BuildError> {
-        let start = self.pairs.len();
-        for &(a, b) in list {
-            let (a, b) = (self.flat(a)?, self.flat(b)?);
-            let mirror = self
-                .mirrors
-                .iter()
-                .position(|&m| m == b)
-                .unwrap_or_else(|| {
-                    self.mirrors.push(b);
-                    let mirror = self.mirrors.len() - 1;
-                    self.ops.push(Op::Mirror { mirror, node: b });
-                    mirror
-                });
-            self.pairs.push((a, mirror));
-        }
-        Ok((start, self.pairs.len()))
+    fn indices<'a>(
+        &self,
+        nodes: impl IntoIterator<Item = &'a Node>,
+    ) -> Result<Vec<u16>, BuildError> {
+        nodes
+            .into_iter()
+            .map(|&node| self.index(node).map(|i| i as u16))
+            .collect()
     }
 
-    /// Sets the derivatives of all states.
-    pub(crate) fn derive(&mut self, derivative: &[Option<Node>]) -> Result<(), BuildError> {
-        for (i, node) in derivative.iter().enumerate() {
-            let node = self.flat(node.ok_or(BuildError::NoDerivative(i))?)?;
-            self.derivative.push(node);
-        }
-        Ok(())
-    }
-
-    /// Resolves the transitions of all units, and finds out what their guards need.
-    pub(crate) fn watch(&mut self, units: &[Vec<Vec<Transition>>]) -> Result<(), BuildError> {
-        for modes in units {
-            let mut resolved = Vec::new();
-            for transitions in modes {
-                let watches: Result<Vec<_>, _> = transitions
+    fn push(&mut self, op: &RawOp) -> Result<(), BuildError> {
+        let kind = match op {
+            RawOp::Linear { constant, terms } => Kind::Linear {
+                constant: *constant,
+                terms: self.indices(terms)?,
+            },
+            RawOp::Matrix { weights, nodes } => Kind::Matrix {
+                weights: *weights,
+                nodes: self.indices(nodes)?,
+            },
+            RawOp::Squares(list) => Kind::Squares(self.indices(list)?),
+            RawOp::Products(list) => Kind::Products(
+                self.indices(list.iter().map(|(a, _)| a))?,
+                self.indices(list.iter().map(|(_, b)| b))?,
+            ),
+            RawOp::Adiabatic {
+                count,
+                sources,
+                damping,
+                responses,
+            } => Kind::Adiabatic {
+                x: (self.nodes..self.nodes + count).map(|i| i as u16).collect(),
+                // They come later in the program: their derivatives are those of the last round.
+                sources: sources
                     .iter()
-                    .map(|t| self.resolve(t, modes.len()))
-                    .collect();
-                resolved.push(watches?);
+                    .map(|&node| match node {
+                        Node::State(i) => i as u16,
+                        Node::Op(i) => (self.states + i) as u16,
+                    })
+                    .collect(),
+                damping: *damping,
+                responses: responses.clone(),
+            },
+            RawOp::Cubic {
+                y,
+                added,
+                heads,
+                weights,
+                extra,
+            } => {
+                let first = self.nodes + 2 * y.len();
+                Kind::Cubic {
+                    y: self.indices(y)?,
+                    t: (first..first + y.len()).map(|i| i as u16).collect(),
+                    added: self.indices(added)?,
+                    heads: *heads,
+                    weights: *weights,
+                    extra: extra.clone(),
+                }
             }
-            self.units.push(resolved);
+        };
+        let (out, count) = (self.nodes, op.nodes());
+        self.nodes += count;
+        if count > 0 {
+            self.ops.push(FlatOp { out, count, kind });
         }
-        self.guard_ops = self.needed_by_guards();
         Ok(())
     }
 
-    fn guard(&mut self, node: Node) -> Result<usize, BuildError> {
-        let node = self.flat(node)?;
-        Ok(self
-            .guards
-            .iter()
-            .position(|&g| g == node)
-            .unwrap_or_else(|| {
-                self.guards.push(node);
-                self.guards.len() - 1
-            }))
-    }
-
-    fn resolve(&mut self, t: &Transition, modes: usize) -> Result<Watch, BuildError> {
-        if t.to >= modes {
-            return Err(BuildError::Undefined(format!("mode {}", t.to)));
-        }
-        let guard = self.guard(t.guard)?;
-        let mut vanishing = vec![(guard, 1)];
-        for &(node, multiplicity) in &t.vanishing {
-            vanishing.push((self.guard(node)?, multiplicity));
-        }
-        let mut resets = Vec::new();
-        for &(state, value) in &t.resets {
-            resets.push((self.flat(Node::State(state))?, self.flat(value)?));
-        }
-        Ok(Watch {
-            guard,
-            sign: t.sign,
-            to: t.to,
-            resets,
-            vanishing,
-        })
-    }
-
-    /// Steps that the guards depend on, in program order.
-    fn needed_by_guards(&self) -> Vec<usize> {
+    /// For each operation whether these nodes depend on it.
+    fn needed_by(&self, guards: &[usize]) -> Vec<bool> {
         let mut nodes = vec![false; self.nodes];
-        let mut mirrors = vec![false; self.mirrors.len()];
-        self.guards.iter().for_each(|&g| nodes[g] = true);
-        let mut needed = Vec::new();
-        for (index, op) in self.ops.iter().enumerate().rev() {
-            let (is_needed, terms, pairs) = match op {
-                Op::Linear { out, terms, .. } => (nodes[*out], *terms, (0, 0)),
-                Op::Matrix {
-                    out,
-                    weights,
-                    nodes: columns,
-                } => {
-                    let rows = (weights.1 - weights.0) / (columns.1 - columns.0);
-                    (nodes[*out..*out + rows].contains(&true), *columns, (0, 0))
-                }
-                Op::Dot { out, pairs } => (nodes[*out], (0, 0), *pairs),
-                Op::Products { out, pairs } => (
-                    nodes[*out..*out + pairs.1 - pairs.0].contains(&true),
-                    (0, 0),
-                    *pairs,
-                ),
-                Op::Mirror { mirror, node } => {
-                    nodes[*node] |= mirrors[*mirror];
-                    (mirrors[*mirror], (0, 0), (0, 0))
-                }
-            };
-            if is_needed {
-                needed.push(index);
-                self.terms[terms.0..terms.1]
-                    .iter()
-                    .for_each(|&node| nodes[node] = true);
-                for &(node, mirror) in &self.pairs[pairs.0..pairs.1] {
-                    nodes[node] = true;
-                    mirrors[mirror] = true;
+        guards.iter().for_each(|&g| nodes[g] = true);
+        let mut needed = vec![false; self.ops.len()];
+        for (needed, op) in needed.iter_mut().zip(&self.ops).rev() {
+            *needed = nodes[op.out..op.out + op.count].contains(&true);
+            if *needed {
+                let inputs: [&[u16]; 2] = match &op.kind {
+                    Kind::Linear { terms, .. } => [terms, &[]],
+                    Kind::Matrix { nodes, .. } => [nodes, &[]],
+                    Kind::Squares(factors) => [factors, &[]],
+                    Kind::Products(first, second) => [first, second],
+                    Kind::Cubic { y, added, .. } => [y, added],
+                    Kind::Adiabatic { .. } => [&[], &[]],
+                };
+                for &input in inputs.into_iter().flatten() {
+                    nodes[input as usize] = true;
                 }
             }
         }
-        needed.reverse();
         needed
     }
 }

@@ -54,6 +54,11 @@ impl Guarded {
         self.zero[guard] > 0
     }
 
+    /// Whether any must.
+    pub(crate) fn any_zero(&self) -> bool {
+        self.zero.iter().any(|&zero| zero > 0)
+    }
+
     /// The transitions now in force, with their unit and place.
     pub(crate) fn watches<'a>(
         &'a self,

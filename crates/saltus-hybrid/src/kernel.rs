@@ -8,8 +8,11 @@ use fearless_simd::{Level, Simd, SimdBase, dispatch};
 
 use crate::arith::{Arith, LANES, Pack, Wide};
 use crate::compile::Structure;
-use crate::polynomial::{BernsteinTable, MAX_DEGREE};
+use crate::event::Guarded;
+use crate::polynomial::{BernsteinTable, HEAD};
 use crate::series::{Series, expand};
+use crate::special::Shape;
+use crate::system::System;
 
 /// Eight lanes of numbers and the program they all follow.
 pub(crate) struct Kernel {
@@ -22,22 +25,42 @@ pub(crate) struct Kernel {
     pub(crate) lengths: Pack,
     tolerance: f64,
     level: Level,
-    coefficients: Vec<Pack>,
+    /// Straight-line code for the program, if there is.
+    shape: Option<Shape>,
+    stream: Vec<Pack>,
     series: Series<Pack>,
     /// Largest last, last-but-one and first coefficient of each lane.
     tail: [Pack; 3],
-    /// Smallest and largest Bernstein coefficient of each guard over the step.
-    bounds: Vec<[Pack; 2]>,
+    /// NaN where the new state is not finite, else 0.
+    pub(crate) overflow: Pack,
+    /// States at the start of the step.
+    start: Vec<Pack>,
+    guards: Vec<GuardRange>,
+    /// Lanes that need a look at every step.
+    wary: [bool; LANES],
+}
+
+/// A guard over the coming step, and what matters about it.
+#[derive(Clone, Copy)]
+struct GuardRange {
+    low: Pack,
+    high: Pack,
+    /// A lane needs a look if `low` is not above this (0 if the mode lasts while the guard is
+    /// positive, else minus infinity),
+    floor: Pack,
+    /// or `high` not below this.
+    ceiling: Pack,
 }
 
 impl Kernel {
     /// At the best instruction set of this machine.
-    pub(crate) fn new(
-        structure: &Arc<Structure>,
-        coefficients: usize,
-        tolerance: f64,
-        order: usize,
-    ) -> Self {
+    pub(crate) fn new(structure: &Arc<Structure>, tolerance: f64, order: usize) -> Self {
+        let guard = GuardRange {
+            low: Pack::default(),
+            high: Pack::default(),
+            floor: Pack([f64::NEG_INFINITY; LANES]),
+            ceiling: Pack([f64::INFINITY; LANES]),
+        };
         Self {
             order,
             table: BernsteinTable::new(order),
@@ -46,46 +69,87 @@ impl Kernel {
             lengths: Pack::default(),
             tolerance,
             level: Level::new(),
-            coefficients: vec![Pack::default(); coefficients],
+            shape: Shape::of(structure),
+            stream: vec![Pack::default(); structure.stream.len()],
             series: Series::new(structure, order),
             tail: [Pack::default(); 3],
-            bounds: vec![[Pack::default(); 2]; structure.guards.len()],
+            overflow: Pack::default(),
+            start: vec![Pack::default(); structure.states],
+            guards: vec![guard; structure.guards.len()],
+            wary: [false; LANES],
         }
     }
 
     /// An idle lane computes with zeros, which disturb nobody.
     pub(crate) fn clear(&mut self, slot: usize) {
-        self.coefficients.iter_mut().for_each(|c| c.0[slot] = 0.0);
+        self.stream.iter_mut().for_each(|c| c.0[slot] = 0.0);
         self.series.cells().for_each(|c| c.0[slot] = 0.0);
         self.left.0[slot] = 0.0;
+        self.wary[slot] = false;
+        for guard in &mut self.guards {
+            guard.floor.0[slot] = f64::NEG_INFINITY;
+            guard.ceiling.0[slot] = f64::INFINITY;
+        }
     }
 
-    pub(crate) fn set_coefficients(&mut self, slot: usize, values: &[f64]) {
-        for (pack, value) in self.coefficients.iter_mut().zip(values) {
-            pack.0[slot] = *value;
+    /// All coefficients of a lane, in the modes given.
+    pub(crate) fn set_system(&mut self, slot: usize, system: &System, modes: &[usize]) {
+        for (pack, value) in self.stream.iter_mut().zip(system.stream(modes)) {
+            pack.0[slot] = value;
         }
+    }
+
+    /// Those coefficients of a lane that depend on modes.
+    pub(crate) fn set_modes(&mut self, slot: usize, system: &System, modes: &[usize]) {
+        for (place, value) in system.switched_in(modes) {
+            self.stream[place].0[slot] = value;
+        }
+    }
+
+    /// Which guards matter to a lane, and whether it needs a look at every step in any case.
+    pub(crate) fn watch(&mut self, slot: usize, guarded: &Guarded, always: bool) {
+        for guard in &mut self.guards {
+            guard.floor.0[slot] = f64::NEG_INFINITY;
+            guard.ceiling.0[slot] = f64::INFINITY;
+        }
+        for (_, _, watch) in guarded.watches(&self.structure) {
+            let guard = &mut self.guards[watch.guard];
+            if watch.sign > 0.0 {
+                guard.floor.0[slot] = 0.0;
+            } else {
+                guard.ceiling.0[slot] = 0.0;
+            }
+        }
+        self.wary[slot] = always || guarded.any_zero();
     }
 
     pub(crate) fn set_state(&mut self, slot: usize, x: &[f64]) {
         for (state, &value) in x.iter().enumerate() {
-            self.series.value(state).0[slot] = value;
+            self.series.value(self.structure.state_slots[state]).0[slot] = value;
         }
     }
 
     pub(crate) fn state(&self, slot: usize, x: &mut [f64]) {
         for (state, x) in x.iter_mut().enumerate() {
-            *x = self.series.of(state)[0].0[slot];
+            *x = self.series.at(self.structure.state_slots[state], 0).0[slot];
         }
     }
 
-    /// Taylor coefficients of a node in one lane.
-    pub(crate) fn power(&self, slot: usize, node: usize) -> impl Iterator<Item = f64> {
-        self.series.of(node).iter().map(move |a| a.0[slot])
+    /// The state at the start of the last step.
+    pub(crate) fn state_before(&self, slot: usize, x: &mut [f64]) {
+        for (x, pack) in x.iter_mut().zip(&self.start) {
+            *x = pack.0[slot];
+        }
+    }
+
+    /// Taylor coefficients in one lane.
+    pub(crate) fn power(&self, lane: usize, slot: usize) -> impl Iterator<Item = f64> {
+        self.series.of(slot).map(move |a| a.0[lane])
     }
 
     /// Whether a guard, seen with this sign, surely stays positive in the step of a lane.
     pub(crate) fn is_safe(&self, slot: usize, guard: usize, sign: f64) -> bool {
-        let [low, high] = &self.bounds[guard];
+        let GuardRange { low, high, .. } = &self.guards[guard];
         if sign > 0.0 {
             low.0[slot] > 0.0
         } else {
@@ -96,6 +160,28 @@ impl Kernel {
     /// Whether the series of a lane is finite.
     pub(crate) fn is_finite(&self, slot: usize) -> bool {
         self.tail.iter().map(|t| t.0[slot]).sum::<f64>().is_finite()
+    }
+
+    /// Whether the new state of a lane is finite.
+    pub(crate) fn has_finite_state(&self, slot: usize) -> bool {
+        self.overflow.0[slot] == 0.0
+    }
+
+    /// Lanes in which something may happen in the coming step.
+    pub(crate) fn needs_a_look(&self) -> [bool; LANES] {
+        let mut look = self.wary;
+        for guard in &self.guards {
+            for (slot, look) in look.iter_mut().enumerate() {
+                // Also if a bound is NaN.
+                let clear = guard.low.0[slot] > guard.floor.0[slot]
+                    && guard.high.0[slot] < guard.ceiling.0[slot];
+                *look |= !clear;
+            }
+        }
+        for (slot, look) in look.iter_mut().enumerate() {
+            *look |= !self.is_finite(slot);
+        }
+        look
     }
 
     /// Series of all lanes, the step they allow and the range of the guards over it.
@@ -110,11 +196,12 @@ impl Kernel {
 
     #[inline(always)]
     fn expand_with<S: Simd>(&mut self, arith: Wide<S>) {
-        expand(arith, &self.structure, &self.coefficients, &mut self.series);
+        let (structure, series) = (&self.structure, &mut self.series);
+        expand(arith, structure, self.shape, &self.stream, series);
         let mut tail = [arith.splat(0.0); 3];
-        for state in 0..self.structure.controlled {
+        for &slot in &self.structure.state_slots[..self.structure.controlled] {
             for (k, tail) in [self.order, self.order - 1, 0].into_iter().zip(&mut tail) {
-                let term = arith.load(&self.series.of(state)[k]);
+                let term = arith.load(self.series.at(slot, k));
                 // The maximum may drop a NaN; adding 0 x keeps it.
                 *tail = tail.max(term.abs()) + term * arith.splat(0.0);
             }
@@ -131,53 +218,84 @@ impl Kernel {
     #[inline(always)]
     fn length(&self, slot: usize) -> f64 {
         let [last, before, size] = self.tail.map(|t| t.0[slot]);
-        if !(last + before + size).is_finite() {
-            return 0.0;
-        }
         let p = self.order as f64;
         let tolerance = self.tolerance * size.max(1.0);
         let allowed = root(tolerance / last.max(f64::MIN_POSITIVE), p)
             .min(root(tolerance / before.max(f64::MIN_POSITIVE), p - 1.0));
-        allowed.min(self.left.0[slot])
+        if (last + before + size).is_finite() {
+            allowed.min(self.left.0[slot])
+        } else {
+            0.0
+        }
     }
 
-    /// Range of each guard over the step by its Bernstein coefficients: a lane whose guards keep
-    /// their sign needs no root search.
+    /// Range of each guard over the step: a lane whose guards keep their sign needs no root search.
     #[inline(always)]
     fn bound_guards<S: Simd>(&mut self, arith: Wide<S>) {
         let length = arith.load(&self.lengths);
-        for (bounds, &node) in self.bounds.iter_mut().zip(&self.structure.guards) {
-            let power = self.series.of(node);
-            let mut scaled = [arith.splat(0.0); MAX_DEGREE + 1];
-            let mut scale = arith.splat(1.0);
-            for (scaled, a) in scaled.iter_mut().zip(power) {
-                *scaled = arith.mul(arith.load(a), scale);
+        let table = self.table.head.as_deref().unwrap_or(&self.table);
+        for (range, &slot) in self.guards.iter_mut().zip(&self.structure.guard_slots) {
+            let head = HEAD.min(self.order) + 1;
+            let mut bernstein = [arith.load(self.series.at(slot, 0)); HEAD + 1];
+            let mut scale = length;
+            for k in 1..head {
+                let a = arith.mul(arith.load(self.series.at(slot, k)), scale);
+                scale = arith.mul(scale, length);
+                for (b, &w) in bernstein[k..head].iter_mut().zip(table.column(k)) {
+                    *b = arith.mul_add(arith.splat(w), a, *b);
+                }
+            }
+            let mut margin = arith.splat(0.0);
+            for k in head..=self.order {
+                let a = arith.load(self.series.at(slot, k));
+                margin = arith.mul_add(a.abs(), scale, margin);
                 scale = arith.mul(scale, length);
             }
-            let (mut low, mut high) = (scaled[0], scaled[0]);
-            for j in 1..=self.order {
-                let mut b = scaled[0];
-                for (&w, &a) in self.table.row(j)[1..].iter().zip(&scaled[1..]) {
-                    b = arith.mul_add(arith.splat(w), a, b);
-                }
+            let bernstein = &bernstein[..head];
+            let (mut low, mut high) = (bernstein[0], bernstein[0]);
+            for &b in &bernstein[1..] {
                 (low, high) = (low.min(b), high.max(b));
             }
-            *bounds = [arith.store(low), arith.store(high)];
+            (range.low, range.high) = (arith.store(low - margin), arith.store(high + margin));
         }
     }
 
-    /// Horner's scheme for every state.
+    /// Horner's scheme for every state, some of them side by side.
     #[inline(always)]
     fn advance_with<S: Simd>(&mut self, arith: Wide<S>) {
-        let h = arith.load(&self.lengths);
-        for state in 0..self.structure.states {
-            let power = self.series.of_mut(state);
-            let mut sum = arith.load(&power[self.order]);
-            for a in power[..self.order].iter().rev() {
-                sum = arith.mul_add(sum, h, arith.load(a));
-            }
-            power[0] = arith.store(sum);
+        self.overflow = Pack::default();
+        let states = self.structure.states;
+        let mut at = 0;
+        while states - at >= 4 {
+            self.horner::<S, 4>(arith, at);
+            at += 4;
         }
+        while at < states {
+            self.horner::<S, 1>(arith, at);
+            at += 1;
+        }
+    }
+
+    #[inline(always)]
+    fn horner<S: Simd, const W: usize>(&mut self, arith: Wide<S>, at: usize) {
+        let Some(slots) = self.structure.state_slots[at..].first_chunk::<W>() else {
+            return;
+        };
+        let h = arith.load(&self.lengths);
+        let mut sums = [arith.splat(0.0); W];
+        for row in self.series.rows().rev() {
+            for w in 0..W {
+                sums[w] = arith.mul_add(sums[w], h, arith.load(&row[slots[w]]));
+            }
+        }
+        let mut overflow = arith.load(&self.overflow);
+        for w in 0..W {
+            let value = self.series.value(slots[w]);
+            self.start[at + w] = *value;
+            *value = arith.store(sums[w]);
+            overflow = arith.mul_add(sums[w], arith.splat(0.0), overflow);
+        }
+        self.overflow = arith.store(overflow);
     }
 }
 

@@ -16,15 +16,14 @@ pub(crate) struct Lane<T> {
     periods: u64,
     evaluator: Evaluator,
     dwell: Vec<Vec<f64>>,
+    /// Since when, within the period, each unit is in its mode.
+    entered: Vec<f64>,
     /// Steps and switches of this period.
     recent_steps: u32,
     recent_switches: u32,
     steps: u64,
     switches: u64,
     tangencies: u64,
-    /// Last finite state.
-    good: Vec<f64>,
-    good_time: f64,
 }
 
 /// What became of a lane after a step.
@@ -56,13 +55,12 @@ impl<T: Task> Lane<T> {
                 .iter()
                 .map(|modes| vec![0.0; modes.len()])
                 .collect(),
+            entered: vec![0.0; structure.units.len()],
             recent_steps: 0,
             recent_switches: 0,
             steps: 0,
             switches: 0,
             tangencies: 0,
-            good: leg.start.x.clone(),
-            good_time: 0.0,
         })
     }
 
@@ -81,11 +79,12 @@ impl<T: Task> Lane<T> {
         self.period >= self.periods
     }
 
-    /// The state that will be reported should the next step fail.
-    pub(crate) fn not_finite(&self, bad: usize) -> Status {
+    /// The end of a lane whose step led to the state `x`, which is not finite.
+    pub(crate) fn not_finite(&self, x: impl IntoIterator<Item = f64>) -> Status {
+        let state = x.into_iter().position(|x| !x.is_finite()).unwrap_or(0);
         Status::NotFinite {
-            time: self.good_time,
-            state: bad,
+            time: self.total_time(),
+            state,
         }
     }
 
@@ -102,8 +101,17 @@ impl<T: Task> Lane<T> {
         }
     }
 
-    /// Books an accepted step to state `x`: time, switch, sample. `x` may be changed by a reset or
-    /// by the drive's return to phase 0.
+    /// Books a step in which nothing happened; `false` if there have been too many.
+    #[inline(always)]
+    pub(crate) fn pass(&mut self, options: &Options, length: f64) -> bool {
+        self.time += length;
+        self.steps += 1;
+        self.recent_steps += 1;
+        self.recent_steps <= options.max_steps
+    }
+
+    /// Books an accepted step to the finite state `x`: time, switch, sample. `x` may be changed by a
+    /// reset or by the drive's return to phase 0.
     pub(crate) fn accept(
         &mut self,
         options: &Options,
@@ -112,37 +120,19 @@ impl<T: Task> Lane<T> {
         period_ends: bool,
         x: &mut [f64],
     ) -> Next {
-        if let Some(bad) = x.iter().position(|v| !v.is_finite()) {
-            return Next::Over(self.not_finite(bad));
+        let few_steps = self.pass(options, length);
+        if period_ends {
+            self.time = self.system.period;
         }
-        self.time = if period_ends {
-            self.system.period
-        } else {
-            self.time + length
-        };
-        for (dwell, &mode) in self.dwell.iter_mut().zip(&self.guarded.modes) {
-            dwell[mode] += length;
-        }
-        self.steps += 1;
-        self.recent_steps += 1;
         if let Some(firing) = firing {
             self.switch(firing, x);
         }
-        self.good.copy_from_slice(x);
-        self.good_time = self.total_time();
         if self.recent_switches > options.max_switches {
-            let count = self.recent_switches;
-            return Next::Over(Status::Chattering {
-                time: self.good_time,
-                count,
-            });
+            let (time, count) = (self.total_time(), self.recent_switches);
+            return Next::Over(Status::Chattering { time, count });
         }
-        if self.recent_steps > options.max_steps {
-            let count = self.recent_steps;
-            return Next::Over(Status::TooManySteps {
-                time: self.good_time,
-                count,
-            });
+        if !few_steps {
+            return Next::Over(self.too_many_steps());
         }
         if period_ends {
             self.end_period(x)
@@ -151,8 +141,22 @@ impl<T: Task> Lane<T> {
         }
     }
 
+    pub(crate) fn too_many_steps(&self) -> Status {
+        Status::TooManySteps {
+            time: self.total_time(),
+            count: self.recent_steps,
+        }
+    }
+
+    /// Counts the time that a unit spent in its mode.
+    fn leave(&mut self, unit: usize) {
+        self.dwell[unit][self.guarded.modes[unit]] += self.time - self.entered[unit];
+        self.entered[unit] = self.time;
+    }
+
     fn switch(&mut self, firing: Firing, x: &mut [f64]) {
         let unit = firing.unit;
+        self.leave(unit);
         let from = self.guarded.modes[unit];
         let structure = std::sync::Arc::clone(&self.system.structure);
         let watch = &structure.units[unit][from][firing.watch];
@@ -180,6 +184,10 @@ impl<T: Task> Lane<T> {
         if let Some((cos, sin)) = self.system.structure.drive {
             (x[cos], x[sin]) = (1.0, 0.0);
         }
+        for unit in 0..self.entered.len() {
+            self.leave(unit);
+        }
+        self.entered.fill(0.0);
         self.time = 0.0;
         self.period += 1;
         self.recent_steps = 0;
@@ -192,7 +200,6 @@ impl<T: Task> Lane<T> {
         };
         let go_on = self.task.sample(&sample);
         self.dwell.iter_mut().for_each(|d| d.fill(0.0));
-        self.good.copy_from_slice(x);
         if go_on && !self.is_over() {
             Next::Go
         } else {
@@ -200,13 +207,13 @@ impl<T: Task> Lane<T> {
         }
     }
 
-    /// Reports the end of the leg; the task's next one, if any, and the task.
-    pub(crate) fn finish(mut self, status: Status) -> (T, Option<Leg>) {
+    /// Reports the end of the leg at state `x`; the task's next one, if any, and the task.
+    pub(crate) fn finish(mut self, status: Status, x: &[f64]) -> (T, Option<Leg>) {
         let next = self.task.end(End {
             status,
             point: Point {
                 modes: self.guarded.modes,
-                x: self.good,
+                x: x.to_vec(),
             },
             periods: self.period,
             steps: self.steps,

@@ -3,7 +3,9 @@
 //! Describe a system once with [`SystemBuilder`]; integrate it with exactly located switches by
 //! [`integrate`], one trajectory or many. Nothing here knows a plate, a person or a unit of measure.
 
+mod adiabatic;
 mod arith;
+mod cauchy;
 mod compile;
 mod event;
 mod kernel;
@@ -14,11 +16,12 @@ mod record;
 mod rk4;
 mod run;
 mod series;
+mod special;
 mod system;
 mod taylor;
 pub mod testing;
 
-pub use parallel::{integrate_all, integrate_groups};
+pub use parallel::{integrate_all, integrate_groups, integrate_stream};
 pub use record::{RecordedSwitch, Recording, record};
 pub use run::{
     End, IntegrateError, Leg, Method, Options, Sample, Status, Step, Switch, SwitchKind, Task,

@@ -23,6 +23,13 @@ pub(crate) struct Descent {
 /// deeper is a tangency.
 const NOISE: f64 = 16.0 * f64::EPSILON;
 
+/// A step of Newton's method, relative to the root, after which the root is exact to rounding.
+const CONVERGED: f64 = 1e-10;
+
+/// Degree up to which a polynomial is looked at first: higher terms of a series that converges are
+/// small, and bounded by their absolute values.
+pub(crate) const HEAD: usize = 7;
+
 /// Tangencies closer than this part of a step are one: the polynomial is flat there to rounding.
 const SAME_TOUCH: f64 = 1e-6;
 
@@ -30,46 +37,79 @@ const SAME_TOUCH: f64 = 1e-6;
 #[derive(Clone, Debug)]
 pub(crate) struct BernsteinTable {
     degree: usize,
-    weights: Vec<f64>,
+    /// By k, then j from k on.
+    columns: Vec<f64>,
+    /// The table for the head of a longer polynomial.
+    pub(crate) head: Option<Box<Self>>,
 }
 
 impl BernsteinTable {
     pub(crate) fn new(degree: usize) -> Self {
-        let mut weights = Vec::with_capacity((degree + 1) * (degree + 2) / 2);
-        for j in 0..=degree {
-            let mut weight = 1.0;
-            for k in 0..=j {
-                weights.push(weight);
-                weight *= (j - k) as f64 / (degree - k).max(1) as f64;
+        let mut columns = Vec::with_capacity((degree + 1) * (degree + 2) / 2);
+        for k in 0..=degree {
+            for j in k..=degree {
+                let factor = |i: usize| (j - i) as f64 / (degree - i) as f64;
+                columns.push((0..k).map(factor).product());
             }
         }
-        Self { degree, weights }
+        Self {
+            degree,
+            columns,
+            head: (degree > HEAD).then(|| Box::new(Self::new(HEAD))),
+        }
     }
 
-    /// Row j: weights of the power coefficients 0..=j.
+    /// Weights of power coefficient k in the Bernstein coefficients k..=degree.
     #[inline(always)]
-    pub(crate) fn row(&self, j: usize) -> &[f64] {
-        &self.weights[j * (j + 1) / 2..(j + 1) * (j + 2) / 2]
+    pub(crate) fn column(&self, k: usize) -> &[f64] {
+        let begin = k * (2 * self.degree + 3 - k) / 2;
+        &self.columns[begin..begin + self.degree + 1 - k]
+    }
+
+    /// Whether the polynomial is positive on [0, 1], as far as its head and a bound on the rest tell.
+    fn clears(&self, power: &[f64]) -> bool {
+        let Some(table) = &self.head else {
+            return false;
+        };
+        let (head, rest) = power.split_at(HEAD + 1);
+        let mut b = [0.0; HEAD + 1];
+        table.convert(head, &mut b);
+        let lowest = b.iter().fold(f64::INFINITY, |m, &v| m.min(v));
+        let highest = b.iter().fold(0.0, |m: f64, &v| m.max(v));
+        lowest > rest.iter().map(|a| a.abs()).sum::<f64>() + 2.0 * NOISE * highest
     }
 
     fn convert(&self, power: &[f64], bernstein: &mut [f64]) {
-        for (j, out) in bernstein.iter_mut().enumerate() {
-            *out = self.row(j).iter().zip(power).map(|(w, a)| w * a).sum();
+        bernstein.fill(power[0]);
+        for (k, a) in power.iter().enumerate().skip(1) {
+            for (out, w) in bernstein[k..].iter_mut().zip(self.column(k)) {
+                *out += w * a;
+            }
         }
     }
 }
 
-/// p(x) and p'(x) by Horner's scheme.
+/// p(x) and p'(x) by Horner's scheme in x^2 for the even and the odd part, which need not wait for each
+/// other.
 fn value_and_slope(power: &[f64], x: f64) -> (f64, f64) {
-    power
-        .iter()
-        .rev()
-        .fold((0.0, 0.0), |(p, dp), &a| (p * x + a, dp * x + p))
+    let u = x * x;
+    let (mut even, mut even_rate, mut odd, mut odd_rate) = (0.0, 0.0, 0.0, 0.0);
+    let (pairs, last) = power.as_chunks::<2>();
+    if let [last] = last {
+        even = *last;
+    }
+    for [a, b] in pairs.iter().rev() {
+        even_rate = even_rate * u + even;
+        odd_rate = odd_rate * u + odd;
+        even = even * u + a;
+        odd = odd * u + b;
+    }
+    (even + x * odd, odd + 2.0 * x * (even_rate + x * odd_rate))
 }
 
-/// Newton within a bracket, p(lo) > 0 > p(hi) or p(hi) = 0, halving where Newton leaves it.
-fn refine(power: &[f64], mut lo: f64, mut hi: f64) -> f64 {
-    let mut x = 0.5 * (lo + hi);
+/// Newton within a bracket, p(lo) > 0 > p(hi) or p(hi) = 0, halving where Newton leaves it; `x` is the
+/// first guess.
+fn refine(power: &[f64], mut lo: f64, mut hi: f64, mut x: f64) -> f64 {
     for _ in 0..100 {
         let (p, dp) = value_and_slope(power, x);
         if p == 0.0 {
@@ -86,7 +126,8 @@ fn refine(power: &[f64], mut lo: f64, mut hi: f64) -> f64 {
         } else {
             0.5 * (lo + hi)
         };
-        if (next - x).abs() <= f64::EPSILON * x {
+        // Newton squares its error: after so small a step the next one is below rounding.
+        if (next - x).abs() <= CONVERGED * x {
             return next;
         }
         x = next;
@@ -128,6 +169,9 @@ pub(crate) fn first_descent(power: &[f64], table: &BernsteinTable) -> Descent {
         touches: 0,
         touch_at: 0.0,
     };
+    if table.clears(power) {
+        return out;
+    }
     let mut root = Piece {
         lo: 0.0,
         hi: 1.0,
@@ -138,8 +182,10 @@ pub(crate) fn first_descent(power: &[f64], table: &BernsteinTable) -> Descent {
         * root.b[..=degree]
             .iter()
             .fold(0.0, |m: f64, v| m.max(v.abs()));
-    let mut stack = vec![root];
-    while let Some(piece) = stack.pop() {
+    let mut stack = Vec::new();
+    let mut next = Some(root);
+    while let Some(piece) = next {
+        next = stack.pop();
         let b = &piece.b[..=degree];
         let lowest = b.iter().fold(f64::INFINITY, |m, &v| m.min(v));
         // The hull of a piece may reach zero where the polynomial itself does not: halve until an
@@ -160,7 +206,9 @@ pub(crate) fn first_descent(power: &[f64], table: &BernsteinTable) -> Descent {
         }
         let changes = sign_changes(b);
         if changes == 1 && b[0] > 0.0 && b[degree] < 0.0 {
-            out.at = Some(refine(power, piece.lo, piece.hi));
+            let chord = b[0] / (b[0] - b[degree]);
+            let guess = piece.lo + chord * (piece.hi - piece.lo);
+            out.at = Some(refine(power, piece.lo, piece.hi, guess));
             return out;
         }
         if changes == 0 && piece.lo > 0.0 {
@@ -173,8 +221,9 @@ pub(crate) fn first_descent(power: &[f64], table: &BernsteinTable) -> Descent {
             continue; // rounding of the coefficients, not a root
         }
         let (left, right) = halve(&piece, degree);
+        stack.extend(next.take());
         stack.push(right);
-        stack.push(left);
+        next = Some(left);
     }
     out
 }

@@ -47,26 +47,30 @@ fn run_leg<T: Task>(
     let mut slot = 1;
     let mut dense = Vec::new();
     if lane.is_over() {
-        return Ok(lane.finish(crate::Status::Completed));
+        return Ok(lane.finish(crate::Status::Completed, &x));
     }
     loop {
         check_stop(stop)?;
         let target = leg.system.period * f64::from(slot) / f64::from(steps_per_period);
         let h = target - lane.time;
-        stepper.coefficients = leg.system.coefficients_in(&lane.guarded.modes);
+        stepper.stream = leg.system.stream(&lane.guarded.modes);
         stepper.open(&structure, &x);
         stepper.step(&structure, lane.time, h, &mut x);
         stepper.close(&structure, &x);
         let (mut firing, touches) =
             lane.guarded
                 .next(&structure, &table, HERMITE, |watch, power| {
-                    power.copy_from_slice(&stepper.guard(watch.guard_node(&structure), h));
+                    power.copy_from_slice(&stepper.cubic(watch.guard_slot(&structure), h));
                     true
                 });
         lane.touched(touches, h);
         if let Some(found) = firing {
             let watch = &structure.units[found.unit][lane.guarded.modes[found.unit]][found.watch];
             firing = stepper.polish(&structure, watch, lane.time, h, found, &mut x);
+        }
+        if x.iter().any(|x| !x.is_finite()) {
+            let status = lane.not_finite(x);
+            return Ok(lane.finish(status, &stepper.opened(&structure)));
         }
         let length = firing.map_or(h, |f| f.theta * h);
         if length > 0.0 {
@@ -84,13 +88,13 @@ fn run_leg<T: Task>(
                 });
             }
             lane.guarded.advanced(HERMITE, |guard, power| {
-                power.copy_from_slice(&stepper.guard(structure.guards[guard], length));
+                power.copy_from_slice(&stepper.cubic(structure.guard_slots[guard], length));
             });
         }
         let on_grid = firing.is_none_or(|f| f.theta == 1.0);
         let period_ends = on_grid && slot == steps_per_period;
         match lane.accept(options, length, firing, period_ends, &mut x) {
-            Next::Over(status) => return Ok(lane.finish(status)),
+            Next::Over(status) => return Ok(lane.finish(status, &x)),
             Next::Go if period_ends => slot = 1,
             Next::Go if on_grid => slot += 1,
             Next::Go => {}
@@ -98,10 +102,10 @@ fn run_leg<T: Task>(
     }
 }
 
-/// Buffers of one trajectory. Nodes are kept with their first time derivative, two numbers each.
+/// Buffers of one trajectory: states and guards with their first time derivative.
 struct Stepper {
     omega: f64,
-    coefficients: Vec<f64>,
+    stream: Vec<f64>,
     start: Series<f64>,
     end: Series<f64>,
     stage: Series<f64>,
@@ -114,7 +118,7 @@ impl Stepper {
         let states = structure.states;
         Self {
             omega: std::f64::consts::TAU / period,
-            coefficients: Vec::new(),
+            stream: Vec::new(),
             start: Series::new(structure, 1),
             end: Series::new(structure, 1),
             stage: Series::new(structure, 0),
@@ -124,11 +128,20 @@ impl Stepper {
     }
 
     fn open(&mut self, structure: &Structure, x: &[f64]) {
-        linearize(structure, &self.coefficients, x, &mut self.start);
+        linearize(structure, &self.stream, x, &mut self.start);
+    }
+
+    /// The opened point.
+    fn opened(&self, structure: &Structure) -> Vec<f64> {
+        structure
+            .state_slots
+            .iter()
+            .map(|&slot| *self.start.at(slot, 0))
+            .collect()
     }
 
     fn close(&mut self, structure: &Structure, x: &[f64]) {
-        linearize(structure, &self.coefficients, x, &mut self.end);
+        linearize(structure, &self.stream, x, &mut self.end);
     }
 
     /// The drive's states are known exactly at every time.
@@ -141,28 +154,29 @@ impl Stepper {
     fn step(&mut self, structure: &Structure, t: f64, h: f64, x: &mut [f64]) {
         let states = structure.states;
         for i in 0..states {
-            self.rate[i] = self.start.of(i)[1];
+            self.rate[i] = *self.start.at(structure.state_slots[i], 1);
             self.sum[i] = self.rate[i];
         }
         for (fraction, weight) in [(0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {
             for i in 0..states {
-                *self.stage.value(i) = self.start.of(i)[0] + fraction * h * self.rate[i];
+                let slot = structure.state_slots[i];
+                *self.stage.value(slot) = self.start.at(slot, 0) + fraction * h * self.rate[i];
             }
             for (i, value) in self
                 .drive(structure, t + fraction * h)
                 .into_iter()
                 .flatten()
             {
-                *self.stage.value(i) = value;
+                *self.stage.value(structure.state_slots[i]) = value;
             }
-            values(structure, &self.coefficients, &mut self.stage);
+            values(structure, &self.stream, &mut self.stage);
             for i in 0..states {
-                self.rate[i] = self.stage.of(structure.derivative[i])[0];
+                self.rate[i] = self.stage.now()[structure.derivative[i]];
                 self.sum[i] += weight * self.rate[i];
             }
         }
         for (i, x) in x.iter_mut().enumerate() {
-            *x = self.start.of(i)[0] + h / 6.0 * self.sum[i];
+            *x = self.start.at(structure.state_slots[i], 0) + h / 6.0 * self.sum[i];
         }
         for (i, value) in self.drive(structure, t + h).into_iter().flatten() {
             x[i] = value;
@@ -170,9 +184,9 @@ impl Stepper {
     }
 
     /// Power coefficients, in the fraction of the step, of the cubic through both ends.
-    fn guard(&self, node: usize, h: f64) -> [f64; HERMITE + 1] {
-        let &[g0, d0] = self.start.pair(node);
-        let &[g1, d1] = self.end.pair(node);
+    fn cubic(&self, slot: usize, h: f64) -> [f64; HERMITE + 1] {
+        let [g0, d0] = [0, 1].map(|k| *self.start.at(slot, k));
+        let [g1, d1] = [0, 1].map(|k| *self.end.at(slot, k));
         let (d0, d1) = (h * d0, h * d1);
         [
             g0,
@@ -193,13 +207,13 @@ impl Stepper {
         found: Firing,
         x: &mut [f64],
     ) -> Option<Firing> {
-        let node = watch.guard_node(structure);
+        let slot = watch.guard_slot(structure);
         let mut theta = found.theta;
         if theta > 0.0 {
             for _ in 0..20 {
                 self.step(structure, t, theta * h, x);
                 self.close(structure, x);
-                let &[g, rate] = self.end.pair(node);
+                let [g, rate] = [0, 1].map(|k| *self.end.at(slot, k));
                 let newton = g / (h * rate);
                 if !newton.is_finite() || newton.abs() > 0.5 || theta - newton <= 0.0 {
                     break; // nearly tangent: the interpolant's root is as good
@@ -225,7 +239,7 @@ impl Stepper {
     fn interpolate(&self, structure: &Structure, h: f64, out: &mut Vec<f64>) {
         out.clear();
         for state in 0..structure.states {
-            let mut power = self.guard(state, h);
+            let mut power = self.cubic(structure.state_slots[state], h);
             let mut scale = 1.0;
             for a in &mut power {
                 *a *= scale;
@@ -237,9 +251,9 @@ impl Stepper {
 }
 
 /// All nodes at `x` with their first time derivative where the guards and the states need it.
-fn linearize(structure: &Structure, coefficients: &[f64], x: &[f64], out: &mut Series<f64>) {
+fn linearize(structure: &Structure, stream: &[f64], x: &[f64], out: &mut Series<f64>) {
     for (i, &value) in x.iter().enumerate() {
-        *out.value(i) = value;
+        *out.value(structure.state_slots[i]) = value;
     }
-    expand(Scalar, structure, coefficients, out);
+    expand(Scalar, structure, None, stream, out);
 }

@@ -4,242 +4,364 @@
 //! product, and x' = node gives x[k+1] = node[k]/(k+1). See Jorba & Zou, Experiment. Math. 14 (2005).
 
 use crate::arith::{Arith, Scalar};
-use crate::compile::{Op, Structure};
+use crate::cauchy::{Orders, products, squares, squares_and_products};
+use crate::compile::{Cubic, Group, MAX_NODES, Op, Place, Step, Structure};
+use crate::special::Shape;
 
-/// Taylor coefficients of all nodes of a program, and second factors of products once more in
-/// reverse, so that a Cauchy product runs forward through both.
+/// Taylor coefficients: all nodes at the order in hand, and all orders of those nodes that are needed
+/// later (states, factors of products, guards), each in its slot.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Series<C> {
     order: usize,
-    /// Coefficient k of node n is at n * (order + 1) + k.
-    forward: Vec<C>,
-    /// Coefficient k of mirror m is at (m + 1) * (order + 1) - 1 - k.
-    mirror: Vec<C>,
+    slots: usize,
+    now: Vec<C>,
+    /// Order k of slot s is at k * slots + s.
+    kept: Vec<C>,
+    scratch: Vec<C>,
 }
 
-impl Series<f64> {
-    /// Value and first derivative of a node, of a series of order 1.
-    pub(crate) fn pair(&self, node: usize) -> &[f64; 2] {
-        &self.forward.as_chunks::<2>().0[node]
+/// Nodes of a small program.
+const FEW: usize = 256;
+
+/// Length of the table of nodes: one of two, known to the compiler where it is read, so that an index
+/// cut to that range needs no check.
+fn room(structure: &Structure) -> usize {
+    if structure.nodes <= FEW {
+        FEW
+    } else {
+        MAX_NODES
     }
 }
 
 impl<C: Copy + Default> Series<C> {
+    /// Of this order, or of the order that values take to compute.
     pub(crate) fn new(structure: &Structure, order: usize) -> Self {
+        let order = order.max(structure.order_of_values());
         Self {
             order,
-            forward: vec![C::default(); structure.nodes * (order + 1)],
-            mirror: vec![C::default(); structure.mirrors.len() * (order + 1)],
+            slots: structure.slots,
+            now: vec![C::default(); room(structure)],
+            kept: vec![C::default(); structure.slots * (order + 1)],
+            scratch: structure
+                .adiabatic
+                .as_ref()
+                .map_or_else(Vec::new, |x| vec![C::default(); x.scratch(order)]),
         }
     }
 
-    /// All coefficients of a node.
+    /// All coefficients of a slot, order by order.
     #[inline(always)]
-    pub(crate) fn of(&self, node: usize) -> &[C] {
-        &self.forward[node * (self.order + 1)..(node + 1) * (self.order + 1)]
+    pub(crate) fn of(
+        &self,
+        slot: usize,
+    ) -> impl DoubleEndedIterator<Item = &C> + ExactSizeIterator {
+        self.kept[slot..].iter().step_by(self.slots)
     }
 
-    /// All coefficients of a node.
+    /// The slots at each order.
     #[inline(always)]
-    pub(crate) fn of_mut(&mut self, node: usize) -> &mut [C] {
-        &mut self.forward[node * (self.order + 1)..(node + 1) * (self.order + 1)]
+    pub(crate) fn rows(&self) -> std::slice::ChunksExact<'_, C> {
+        self.kept.chunks_exact(self.slots)
     }
 
-    /// Its value at the point of expansion.
+    /// Order k of a slot.
     #[inline(always)]
-    pub(crate) fn value(&mut self, node: usize) -> &mut C {
-        &mut self.forward[node * (self.order + 1)]
+    pub(crate) fn at(&self, slot: usize, k: usize) -> &C {
+        &self.kept[k * self.slots + slot]
     }
 
-    /// All coefficients of all nodes; of a series of order 0, their values.
-    pub(crate) fn all(&self) -> &[C] {
-        &self.forward
+    /// Order 0 of a slot.
+    #[inline(always)]
+    pub(crate) fn value(&mut self, slot: usize) -> &mut C {
+        &mut self.kept[slot]
+    }
+
+    /// All nodes at the last order computed; after [`values`], their values.
+    pub(crate) fn now(&self) -> &[C] {
+        &self.now
     }
 
     /// Every stored coefficient, to be cleared.
     pub(crate) fn cells(&mut self) -> impl Iterator<Item = &mut C> {
-        self.forward.iter_mut().chain(&mut self.mirror)
+        self.now.iter_mut().chain(&mut self.kept)
     }
 
+    /// Puts the values of the states, given in their first slots, everywhere.
     #[inline(always)]
-    fn get(&self, node: usize, k: usize) -> &C {
-        &self.forward[node * (self.order + 1) + k]
-    }
-
-    #[inline(always)]
-    fn set(&mut self, node: usize, k: usize, value: C) {
-        self.forward[node * (self.order + 1) + k] = value;
-    }
-
-    #[inline(always)]
-    fn reflect(&mut self, mirror: usize, node: usize, k: usize) {
-        self.mirror[(mirror + 1) * (self.order + 1) - 1 - k] = *self.get(node, k);
-    }
-
-    /// The first k + 1 coefficients of a node, and those of a mirror in reverse.
-    #[inline(always)]
-    fn factors(&self, (node, mirror): (usize, usize), k: usize) -> (&[C], &[C]) {
-        let stride = self.order + 1;
-        (
-            &self.forward[node * stride..][..k + 1],
-            &self.mirror[mirror * stride + self.order - k..][..k + 1],
-        )
+    fn open(&mut self, structure: &Structure) {
+        for (now, &slot) in self.now.iter_mut().zip(&structure.state_slots) {
+            *now = self.kept[slot];
+        }
+        for &(state, slot) in &structure.state_copies {
+            self.kept[slot] = self.now[state];
+        }
     }
 }
 
-/// Order k of four products at once: four sums, so that no multiply-add waits for the one before.
-#[inline(always)]
-fn four_products<A: Arith>(
+/// Where sums are read from and written to.
+struct Sums<'a, A: Arith, const M: usize> {
     arith: A,
-    series: &Series<A::Cell>,
-    pairs: &[(usize, usize); 4],
-    k: usize,
-) -> [A::V; 4] {
-    let [(a0, b0), (a1, b1), (a2, b2), (a3, b3)] = pairs.map(|pair| series.factors(pair, k));
-    let [mut s0, mut s1, mut s2, mut s3] = [arith.splat(0.0); 4];
-    let first = a0.iter().zip(b0).zip(a1.iter().zip(b1));
-    let second = a2.iter().zip(b2).zip(a3.iter().zip(b3));
-    for (((a0, b0), (a1, b1)), ((a2, b2), (a3, b3))) in first.zip(second) {
-        s0 = arith.mul_add(arith.load(a0), arith.load(b0), s0);
-        s1 = arith.mul_add(arith.load(a1), arith.load(b1), s1);
-        s2 = arith.mul_add(arith.load(a2), arith.load(b2), s2);
-        s3 = arith.mul_add(arith.load(a3), arith.load(b3), s3);
+    stream: &'a [A::Cell],
+    now: &'a mut [A::Cell; M],
+    /// The order in hand of all slots.
+    kept: &'a mut [A::Cell],
+}
+
+impl<A: Arith, const M: usize> Sums<'_, A, M> {
+    #[inline(always)]
+    fn put<const W: usize>(&mut self, out: Place, values: [A::V; W]) {
+        let cells = match out {
+            Place::Now(node) => &mut self.now[node..][..W],
+            Place::Kept(slot) => &mut self.kept[slot..][..W],
+        };
+        for (cell, value) in cells.iter_mut().zip(values) {
+            *cell = self.arith.store(value);
+        }
     }
-    [s0, s1, s2, s3]
-}
 
-/// Order k of one product.
-#[inline(always)]
-fn product<A: Arith>(arith: A, series: &Series<A::Cell>, pair: (usize, usize), k: usize) -> A::V {
-    let (a, b) = series.factors(pair, k);
-    let mut sum = arith.splat(0.0);
-    for (a, b) in a.iter().zip(b) {
-        sum = arith.mul_add(arith.load(a), arith.load(b), sum);
+    /// W sums of equally many terms.
+    #[inline(always)]
+    fn group<const W: usize>(&mut self, group: &Group, terms: &[u16], first: bool) {
+        let arith = self.arith;
+        let weights = &self.stream[group.weights..][..W * (group.terms + 1)];
+        let Some((constants, weights)) = weights.split_first_chunk::<W>() else {
+            return;
+        };
+        let nodes = &terms[group.nodes..][..W * group.terms];
+        let mut sums = [arith.splat(0.0); W];
+        if first {
+            for w in 0..W {
+                sums[w] = arith.load(&constants[w]);
+            }
+        }
+        let terms = weights
+            .as_chunks::<W>()
+            .0
+            .iter()
+            .zip(nodes.as_chunks::<W>().0);
+        for (weights, nodes) in terms {
+            for w in 0..W {
+                let x = arith.load(&self.now[nodes[w] as usize % M]);
+                sums[w] = arith.mul_add(arith.load(&weights[w]), x, sums[w]);
+            }
+        }
+        self.put(group.out, sums);
     }
-    sum
-}
 
-/// Two nodes to multiply.
-type Pair = (usize, usize);
-
-/// Splits a list of pairs into fours and the rest.
-#[inline(always)]
-fn fours(pairs: &[Pair]) -> (&[[Pair; 4]], &[Pair]) {
-    pairs.as_chunks::<4>()
-}
-
-/// Order k of four rows of a matrix at once: each node is loaded for four multiply-adds.
-#[inline(always)]
-fn four_rows<A: Arith>(
-    arith: A,
-    series: &Series<A::Cell>,
-    rows: &[A::Cell],
-    nodes: &[usize],
-    k: usize,
-) -> [A::V; 4] {
-    let n = nodes.len();
-    let (first, second) = rows.split_at(2 * n);
-    let ((c0, c1), (c2, c3)) = (first.split_at(n), second.split_at(n));
-    let [mut s0, mut s1, mut s2, mut s3] = [arith.splat(0.0); 4];
-    let weights = c0.iter().zip(c1).zip(c2.iter().zip(c3));
-    for (((c0, c1), (c2, c3)), &node) in weights.zip(nodes) {
-        let x = arith.load(series.get(node, k));
-        s0 = arith.mul_add(arith.load(c0), x, s0);
-        s1 = arith.mul_add(arith.load(c1), x, s1);
-        s2 = arith.mul_add(arith.load(c2), x, s2);
-        s3 = arith.mul_add(arith.load(c3), x, s3);
+    /// W rows of a matrix: each node is loaded for W multiply-adds.
+    #[inline(always)]
+    fn rows<const W: usize>(&mut self, out: Place, weights: &[A::Cell], nodes: &[u16]) {
+        let arith = self.arith;
+        let mut sums = [arith.splat(0.0); W];
+        for (weights, &node) in weights.as_chunks::<W>().0.iter().zip(nodes) {
+            let x = arith.load(&self.now[node as usize % M]);
+            for w in 0..W {
+                sums[w] = arith.mul_add(arith.load(&weights[w]), x, sums[w]);
+            }
+        }
+        self.put(out, sums);
     }
-    [s0, s1, s2, s3]
+
+    /// A whole matrix: rows by fours, then the rest.
+    #[inline(always)]
+    fn matrix(&mut self, out: Place, rows: usize, weights: &[A::Cell], nodes: &[u16]) {
+        let at = |row: usize| match out {
+            Place::Now(node) => Place::Now(node + row),
+            Place::Kept(slot) => Place::Kept(slot + row),
+        };
+        let mut row = 0;
+        while rows - row >= 4 {
+            self.rows::<4>(at(row), &weights[row * nodes.len()..], nodes);
+            row += 4;
+        }
+        let rest = &weights[row * nodes.len()..];
+        match rows - row {
+            3 => self.rows::<3>(at(row), rest, nodes),
+            2 => self.rows::<2>(at(row), rest, nodes),
+            1 => self.rows::<1>(at(row), rest, nodes),
+            _ => {}
+        }
+    }
 }
 
-/// Order k of operation `index`.
+/// Order k of a program of at most M nodes.
 #[inline(always)]
-fn operation<A: Arith>(
+fn run<A: Arith, const M: usize>(
     arith: A,
     structure: &Structure,
-    coefficients: &[A::Cell],
+    program: &[Step],
+    stream: &[A::Cell],
     series: &mut Series<A::Cell>,
     k: usize,
-    index: usize,
 ) {
-    match &structure.ops[index] {
-        Op::Linear {
-            out,
-            constant,
-            terms,
-        } => {
-            let nodes = &structure.terms[terms.0..terms.1];
-            let weights = &coefficients[*constant..][..nodes.len() + 1];
-            let term = |c: &A::Cell, node: usize, sum| {
-                arith.mul_add(arith.load(c), arith.load(series.get(node, k)), sum)
-            };
-            let (mut even, mut odd) = (arith.splat(0.0), arith.splat(0.0));
-            if k == 0 {
-                even = arith.load(&weights[0]);
-            }
-            let (weights, last_weight) = weights[1..].as_chunks::<2>();
-            let (nodes, last_node) = nodes.as_chunks::<2>();
-            for (c, node) in weights.iter().zip(nodes) {
-                even = term(&c[0], node[0], even);
-                odd = term(&c[1], node[1], odd);
-            }
-            if let ([c], [node]) = (last_weight, last_node) {
-                even = term(c, *node, even);
-            }
-            series.set(*out, k, arith.store(arith.add(even, odd)));
-        }
-        Op::Matrix {
-            out,
-            weights,
-            nodes,
-        } => {
-            let nodes = &structure.terms[nodes.0..nodes.1];
-            let weights = &coefficients[weights.0..weights.1];
-            let n = nodes.len();
-            let fours = weights.chunks_exact(4 * n);
-            let rest = fours.remainder();
-            let mut out = *out;
-            for four in fours {
-                for value in four_rows(arith, series, four, nodes, k) {
-                    series.set(out, k, arith.store(value));
-                    out += 1;
+    let stride = series.slots;
+    let Some(now) = series.now.first_chunk_mut::<M>() else {
+        return;
+    };
+    for step in program {
+        match &step.op {
+            Op::Linear { groups } => {
+                let mut sums = Sums {
+                    arith,
+                    stream,
+                    now,
+                    kept: &mut series.kept[k * stride..][..stride],
+                };
+                for group in &structure.groups[groups.0..groups.1] {
+                    match group.width {
+                        4 => sums.group::<4>(group, &structure.terms, k == 0),
+                        3 => sums.group::<3>(group, &structure.terms, k == 0),
+                        2 => sums.group::<2>(group, &structure.terms, k == 0),
+                        _ => sums.group::<1>(group, &structure.terms, k == 0),
+                    }
                 }
             }
-            for row in rest.chunks_exact(n) {
-                let mut sum = arith.splat(0.0);
-                for (c, &node) in row.iter().zip(nodes) {
-                    sum = arith.mul_add(arith.load(c), arith.load(series.get(node, k)), sum);
-                }
-                series.set(out, k, arith.store(sum));
-                out += 1;
+            Op::Matrix {
+                out,
+                rows,
+                weights,
+                nodes,
+            } => {
+                let mut sums = Sums {
+                    arith,
+                    stream,
+                    now,
+                    kept: &mut series.kept[k * stride..][..stride],
+                };
+                let nodes = &structure.terms[nodes.0..nodes.1];
+                let weights = &stream[*weights..][..rows * nodes.len()];
+                sums.matrix(*out, *rows, weights, nodes);
+            }
+            Op::Squares { out, count, factor } => {
+                let orders = Orders {
+                    cells: &series.kept,
+                    stride,
+                };
+                squares(arith, orders, *factor, k, &mut now[*out..out + count]);
+            }
+            Op::Products {
+                out,
+                count,
+                factors,
+            } => {
+                let orders = Orders {
+                    cells: &series.kept,
+                    stride,
+                };
+                products(arith, orders, *factors, k, &mut now[*out..out + count]);
+            }
+            Op::Recall { out, slot, count } => {
+                let from = k * stride + slot;
+                now[*out..out + count].copy_from_slice(&series.kept[from..from + count]);
+            }
+            Op::Cubic(index) => {
+                let cubic = &structure.cubics[*index];
+                run_cubic(arith, cubic, stream, now, &mut series.kept, stride, k);
             }
         }
-        Op::Dot { out, pairs } => {
-            let (fours, rest) = fours(&structure.pairs[pairs.0..pairs.1]);
-            let mut sum = arith.splat(0.0);
-            for four in fours {
-                let [a, b, c, d] = four_products(arith, series, four, k);
-                sum = arith.add(sum, arith.add(arith.add(a, b), arith.add(c, d)));
-            }
-            for &pair in rest {
-                sum = arith.add(sum, product(arith, series, pair, k));
-            }
-            series.set(*out, k, arith.store(sum));
+        for &(node, slot) in &structure.keeps[step.keeps.0..step.keeps.1] {
+            series.kept[k * stride + slot as usize] = now[node as usize % M];
         }
-        Op::Products { out, pairs } => {
-            let (fours, rest) = fours(&structure.pairs[pairs.0..pairs.1]);
-            for (i, four) in fours.iter().enumerate() {
-                let values = four_products(arith, series, four, k);
-                for (j, value) in values.into_iter().enumerate() {
-                    series.set(out + 4 * i + j, k, arith.store(value));
-                }
-            }
-            for (i, &pair) in rest.iter().enumerate() {
-                let value = product(arith, series, pair, k);
-                series.set(out + 4 * fours.len() + i, k, arith.store(value));
-            }
+    }
+}
+
+/// Order k of a cubic.
+#[inline(always)]
+fn run_cubic<A: Arith>(
+    arith: A,
+    cubic: &Cubic,
+    stream: &[A::Cell],
+    now: &mut [A::Cell],
+    kept: &mut [A::Cell],
+    stride: usize,
+    k: usize,
+) {
+    let (count, heads) = (cubic.count, cubic.heads);
+    let (before, out) = now.split_at_mut(cubic.out);
+    let (q, out) = out.split_at_mut(count);
+    let p = &mut out[..count];
+    let orders = Orders {
+        cells: kept,
+        stride,
+    };
+    squares_and_products(arith, orders, [cubic.y, cubic.t], k, q, p);
+    let t = &mut kept[k * stride + cubic.t..][..count];
+    if let Some(first) = cubic.added {
+        t.copy_from_slice(&before[first..first + count]);
+    }
+    let onto = cubic.added.is_some();
+    let (t_heads, t_rest) = t.split_at_mut(heads);
+    let weights = &stream[cubic.weights..][..heads * (2 * count - heads)];
+    let (weights_heads, weights_rest) = weights.split_at(heads * count);
+    block_rows(arith, weights_heads, q, onto, t_heads);
+    block_rows(arith, weights_rest, &q[..heads], onto, t_rest);
+    for &(row, column, weight) in &cubic.extra {
+        let (weight, x) = (arith.load(&stream[weight]), arith.load(&q[column]));
+        t[row] = arith.store(arith.mul_add(weight, x, arith.load(&t[row])));
+    }
+    let t = &kept[k * stride + cubic.t..][..count];
+    let y = &kept[cubic.y..][..count];
+    for ((p, t), y) in p.iter_mut().zip(t).zip(y) {
+        *p = arith.store(arith.mul_add(arith.load(t), arith.load(y), arith.load(p)));
+    }
+}
+
+/// out = matrix times x, rows by fours and the rest; `onto` adds to what is there.
+#[inline(always)]
+pub(crate) fn block_rows<A: Arith>(
+    arith: A,
+    weights: &[A::Cell],
+    x: &[A::Cell],
+    onto: bool,
+    out: &mut [A::Cell],
+) {
+    let mut row = 0;
+    while row < out.len() {
+        let weights = &weights[row * x.len()..];
+        match out.len() - row {
+            1 => some_rows::<A, 1>(arith, weights, x, onto, &mut out[row..]),
+            2 => some_rows::<A, 2>(arith, weights, x, onto, &mut out[row..]),
+            3 => some_rows::<A, 3>(arith, weights, x, onto, &mut out[row..]),
+            _ => some_rows::<A, 4>(arith, weights, x, onto, &mut out[row..]),
         }
-        Op::Mirror { mirror, node } => series.reflect(*mirror, *node, k),
+        row += 4;
+    }
+}
+
+#[inline(always)]
+fn some_rows<A: Arith, const W: usize>(
+    arith: A,
+    weights: &[A::Cell],
+    x: &[A::Cell],
+    onto: bool,
+    out: &mut [A::Cell],
+) {
+    let mut sums = [arith.splat(0.0); W];
+    if onto {
+        for w in 0..W {
+            sums[w] = arith.load(&out[w]);
+        }
+    }
+    // Two sums for each row, so that fewer multiply-adds wait for the one before.
+    let mut others = [arith.splat(0.0); W];
+    let columns = weights[..W * x.len()].as_chunks::<W>().0;
+    let (weights, last_weights) = columns.as_chunks::<2>();
+    let (x, last_x) = x.as_chunks::<2>();
+    for (weights, x) in weights.iter().zip(x) {
+        let (even, odd) = (arith.load(&x[0]), arith.load(&x[1]));
+        for w in 0..W {
+            sums[w] = arith.mul_add(arith.load(&weights[0][w]), even, sums[w]);
+            others[w] = arith.mul_add(arith.load(&weights[1][w]), odd, others[w]);
+        }
+    }
+    for (weights, x) in last_weights.iter().zip(last_x) {
+        let x = arith.load(x);
+        for w in 0..W {
+            sums[w] = arith.mul_add(arith.load(&weights[w]), x, sums[w]);
+        }
+    }
+    for w in 0..W {
+        out[w] = arith.store(arith.add(sums[w], others[w]));
     }
 }
 
@@ -248,28 +370,85 @@ fn operation<A: Arith>(
 pub(crate) fn expand<A: Arith>(
     arith: A,
     structure: &Structure,
-    coefficients: &[A::Cell],
+    shape: Option<Shape>,
+    stream: &[A::Cell],
     series: &mut Series<A::Cell>,
 ) {
-    let order = series.order;
-    for k in 0..order {
-        for index in 0..structure.ops.len() {
-            operation(arith, structure, coefficients, series, k, index);
-        }
-        let factor = arith.splat(1.0 / (k + 1) as f64);
-        for (state, &node) in structure.derivative.iter().enumerate() {
-            let rate = arith.load(series.get(node, k));
-            series.set(state, k + 1, arith.store(arith.mul(rate, factor)));
-        }
-    }
-    for &index in &structure.guard_ops {
-        operation(arith, structure, coefficients, series, order, index);
+    let Some(adiabatic) = &structure.adiabatic else {
+        return expand_once(arith, structure, shape, stream, series);
+    };
+    let (order, stride) = (series.order, series.slots);
+    adiabatic.clear(&mut series.kept, stride);
+    expand_once(arith, structure, shape, stream, series);
+    for _ in 0..adiabatic.corrections() {
+        let (kept, scratch) = (&mut series.kept, &mut series.scratch);
+        adiabatic.update(arith, stream, kept, stride, scratch, order);
+        expand_once(arith, structure, shape, stream, series);
     }
 }
 
+/// One round.
+#[inline(always)]
+fn expand_once<A: Arith>(
+    arith: A,
+    structure: &Structure,
+    shape: Option<Shape>,
+    stream: &[A::Cell],
+    series: &mut Series<A::Cell>,
+) {
+    match shape {
+        Some(shape) => shape.expand(arith, stream, &mut series.kept),
+        None if series.now.len() == FEW => {
+            expand_in::<A, FEW>(arith, structure, stream, series);
+        }
+        None => expand_in::<A, MAX_NODES>(arith, structure, stream, series),
+    }
+}
+
+#[inline(always)]
+fn expand_in<A: Arith, const M: usize>(
+    arith: A,
+    structure: &Structure,
+    stream: &[A::Cell],
+    series: &mut Series<A::Cell>,
+) {
+    let (order, stride) = (series.order, series.slots);
+    series.open(structure);
+    for k in 0..order {
+        let program = &structure.program;
+        run::<A, M>(arith, structure, program, stream, series, k);
+        let factor = arith.splat(1.0 / (k + 1) as f64);
+        let next_row = &mut series.kept[(k + 1) * stride..][..stride];
+        let Some(now) = series.now.first_chunk_mut::<M>() else {
+            return;
+        };
+        // A state that is the rate of another comes after it, see `SystemBuilder::derivative`.
+        for (state, rate) in structure.rates.iter().enumerate() {
+            let next = arith.mul(arith.load(&now[rate.node as usize % M]), factor);
+            now[state % M] = arith.store(next);
+            next_row[rate.slot as usize] = arith.store(next);
+        }
+        for &(state, slot) in &structure.state_copies {
+            next_row[slot] = now[state % M];
+        }
+    }
+    let program = &structure.guard_program;
+    run::<A, M>(arith, structure, program, stream, series, order);
+}
+
 /// Values of all operations, given those of the states (order 0 of `series`).
-pub(crate) fn values(structure: &Structure, coefficients: &[f64], series: &mut Series<f64>) {
-    for index in 0..structure.ops.len() {
-        operation(Scalar, structure, coefficients, series, 0, index);
+pub(crate) fn values(structure: &Structure, stream: &[f64], series: &mut Series<f64>) {
+    if structure.adiabatic.is_some() {
+        expand(Scalar, structure, None, stream, series);
+    }
+    series.open(structure);
+    let program = &structure.program;
+    if series.now.len() == FEW {
+        run::<_, FEW>(Scalar, structure, program, stream, series, 0);
+    } else {
+        run::<_, MAX_NODES>(Scalar, structure, program, stream, series, 0);
+    }
+    for &(node, slot) in &structure.kept_only {
+        series.now[node as usize] = series.kept[slot as usize];
     }
 }

@@ -7,8 +7,9 @@
 
 use std::sync::Arc;
 
-use crate::compile::Structure;
+use crate::compile::{Parts, Structure};
 use crate::series::Series;
+use crate::special::{self, Shape};
 
 /// A quantity of the program: a state or the result of an operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -95,6 +96,9 @@ pub enum BuildError {
         /// Its value.
         value: f64,
     },
+    /// More quantities than an index can name.
+    #[error("the program has {0} quantities: at most 65536 are possible")]
+    TooLarge(usize),
     /// A period that is not positive.
     #[error("the period is {0}: a positive number is needed")]
     Period(f64),
@@ -157,13 +161,35 @@ impl System {
         }
     }
 
-    /// Coefficients in force for these modes.
-    pub(crate) fn coefficients_in(&self, modes: &[Mode]) -> Vec<f64> {
-        let mut out = self.coefficients.to_vec();
-        for &(slot, unit, table) in &self.structure.switched {
-            out[slot] = self.tables[table + modes[unit]];
+    /// Coefficients in force for these modes, in the order in which the program reads them.
+    pub(crate) fn stream(&self, modes: &[Mode]) -> Vec<f64> {
+        let stream = self.structure.stream.iter();
+        let mut out: Vec<f64> = stream.map(|&c| self.coefficients[c as usize]).collect();
+        for (place, value) in self.switched_in(modes) {
+            out[place] = value;
         }
         out
+    }
+
+    /// Place in the stream and value of the coefficients that depend on modes.
+    pub(crate) fn switched_in(&self, modes: &[Mode]) -> impl Iterator<Item = (usize, f64)> {
+        let switched = self.structure.switched.iter();
+        switched.map(|&(place, unit, table)| (place, self.tables[table + modes[unit]]))
+    }
+
+    /// Whether the engine has straight-line code for this program, beside the interpreter for all.
+    pub fn is_specialised(&self) -> bool {
+        Shape::of(&self.structure).is_some()
+    }
+
+    /// This program written out as straight-line code for the engine's `special` folder, if it can be.
+    pub fn source(&self) -> Option<String> {
+        special::source(&self.structure)
+    }
+
+    /// That code as the engine has it.
+    pub fn written_source(&self) -> Option<&'static str> {
+        Shape::of(&self.structure).map(Shape::written)
     }
 
     /// Flat index of a node in the output of [`Evaluator::nodes`].
@@ -198,7 +224,7 @@ impl Evaluator {
     pub fn new(system: &System) -> Self {
         let modes = vec![0; system.unit_count()];
         Self {
-            coefficients: system.coefficients_in(&modes),
+            coefficients: system.stream(&modes),
             modes,
             series: Series::new(&system.structure, 0),
             system: system.clone(),
@@ -209,14 +235,14 @@ impl Evaluator {
     pub fn nodes(&mut self, modes: &[Mode], x: &[f64]) -> &[f64] {
         if self.modes != modes {
             self.modes.copy_from_slice(modes);
-            self.coefficients = self.system.coefficients_in(modes);
+            self.coefficients = self.system.stream(modes);
         }
         let structure = &self.system.structure;
         for (i, &value) in x[..structure.states].iter().enumerate() {
-            *self.series.value(i) = value;
+            *self.series.value(structure.state_slots[i]) = value;
         }
         crate::series::values(structure, &self.coefficients, &mut self.series);
-        self.series.all()
+        self.series.now()
     }
 }
 
@@ -260,16 +286,32 @@ pub(crate) enum RawOp {
         weights: (usize, usize),
         nodes: Vec<Node>,
     },
-    Dot(Vec<(Node, Node)>),
+    Squares(Vec<Node>),
     Products(Vec<(Node, Node)>),
+    Adiabatic {
+        count: usize,
+        sources: Vec<Node>,
+        damping: usize,
+        responses: Vec<usize>,
+    },
+    Cubic {
+        y: Vec<Node>,
+        added: Vec<Node>,
+        heads: usize,
+        weights: usize,
+        extra: Vec<(usize, usize, usize)>,
+    },
 }
 
 impl RawOp {
     /// How many nodes it makes.
     pub(crate) fn nodes(&self) -> usize {
         match self {
-            Self::Linear { .. } | Self::Dot(_) => 1,
+            Self::Linear { .. } => 1,
+            Self::Squares(list) => list.len(),
             Self::Products(list) => list.len(),
+            Self::Cubic { y, .. } => 3 * y.len(),
+            Self::Adiabatic { count, .. } => *count,
             Self::Matrix { weights, nodes } => (weights.1 - weights.0) / nodes.len(),
         }
     }
@@ -336,11 +378,9 @@ impl SystemBuilder {
     /// # Panics
     /// If a row is not as long as `nodes`.
     pub fn matrix(&mut self, nodes: &[Node], rows: &[Vec<f64>]) -> Vec<Node> {
+        assert!(rows.iter().all(|row| row.len() == nodes.len()));
         let start = self.coefficients.len();
-        for row in rows {
-            assert_eq!(row.len(), nodes.len());
-            self.coefficients.extend(row);
-        }
+        self.push_weights(rows, nodes.len());
         let first = self.nodes;
         if start < self.coefficients.len() {
             let weights = (start, self.coefficients.len());
@@ -354,11 +394,123 @@ impl SystemBuilder {
 
     /// Sum of products of two nodes each.
     pub fn dot(&mut self, pairs: &[(Node, Node)]) -> Node {
-        self.push(RawOp::Dot(pairs.to_vec()))
+        let products = self.products(pairs);
+        let terms: Vec<_> = products.into_iter().map(|node| (1.0, node)).collect();
+        self.linear(0.0, &terms)
     }
 
-    /// Many products of two nodes each, none of which may be a factor of another: the same as one
-    /// [`Self::dot`] for each, and faster.
+    /// The squares of nodes: half the work of as many [`Self::products`].
+    pub fn squares(&mut self, nodes: &[Node]) -> Vec<Node> {
+        let first = self.nodes;
+        self.push(RawOp::Squares(nodes.to_vec()));
+        (first..self.nodes).map(Node::Op).collect()
+    }
+
+    /// The gradient of a quartic form in squares: for nodes y and a matrix A, the products
+    /// y_a (sum_b A_ab y_b^2 + added_a), and the squares y_b^2. `added` holds one node for each y, made by
+    /// one [`Self::matrix`] or [`Self::products`], or none. Fastest where A is zero outside its first
+    /// `heads` rows and columns, or nearly so.
+    ///
+    /// # Panics
+    /// If A is not square, or `heads` or `added` do not fit.
+    pub fn cubic(
+        &mut self,
+        y: &[Node],
+        a: &[Vec<f64>],
+        heads: usize,
+        added: &[Node],
+    ) -> (Vec<Node>, Vec<Node>) {
+        let count = y.len();
+        assert!(a.len() == count && a.iter().all(|row| row.len() == count) && heads <= count);
+        let neighbours = |pair: &[Node]| match (pair[0], pair[1]) {
+            (Node::Op(i), Node::Op(j)) => j == i + 1,
+            _ => false,
+        };
+        assert!(added.is_empty() || added.len() == count && added.windows(2).all(neighbours));
+        let weights = self.coefficients.len();
+        self.push_weights(&a[..heads], count);
+        self.push_weights(&a[heads..], heads);
+        let mut extra = Vec::new();
+        for (row, weights) in a.iter().enumerate().skip(heads) {
+            for (column, &weight) in weights.iter().enumerate().skip(heads) {
+                if weight != 0.0 {
+                    extra.push((row, column, self.coefficient(weight)));
+                }
+            }
+        }
+        let first = self.nodes;
+        self.push(RawOp::Cubic {
+            y: y.to_vec(),
+            added: added.to_vec(),
+            heads,
+            weights,
+            extra,
+        });
+        let nodes = |from: usize| (from..from + count).map(Node::Op).collect();
+        (nodes(first), nodes(first + count))
+    }
+
+    /// Announces `count` nodes that follow others adiabatically; see [`Self::define_adiabatic`]. A
+    /// system has them once.
+    ///
+    /// # Panics
+    /// If it has them already.
+    pub fn reserve_adiabatic(&mut self, count: usize) -> Vec<Node> {
+        let other = |op: &RawOp| matches!(op, RawOp::Adiabatic { .. });
+        assert!(!self.ops.iter().any(other));
+        let first = self.nodes;
+        self.push(RawOp::Adiabatic {
+            count,
+            sources: Vec::new(),
+            damping: 0,
+            responses: Vec::new(),
+        });
+        (first..self.nodes).map(Node::Op).collect()
+    }
+
+    /// Says what the reserved nodes are: x = sum over n >= 1 of R_n (D^2 + `damping` D)^n q, where q are
+    /// `sources` and D is the time derivative along the solution. This is how fast, linear oscillators
+    /// follow q beyond their static response, as far as the list of R goes.
+    ///
+    /// # Panics
+    /// If nothing was reserved, or an R is not of `count` rows of one number for each source.
+    pub fn define_adiabatic(&mut self, sources: &[Node], damping: f64, r: &[Vec<Vec<f64>>]) {
+        let damping = self.coefficient(damping);
+        let mut starts = Vec::new();
+        for matrix in r {
+            assert!(matrix.iter().all(|row| row.len() == sources.len()));
+            starts.push(self.coefficients.len());
+            self.push_weights(matrix, sources.len());
+        }
+        let is_it = |op: &&mut RawOp| matches!(op, RawOp::Adiabatic { .. });
+        let reserved = self
+            .ops
+            .iter_mut()
+            .find(is_it)
+            .expect("nodes were reserved");
+        if let RawOp::Adiabatic {
+            count,
+            sources: nodes,
+            damping: place,
+            responses,
+        } = reserved
+        {
+            assert!(r.iter().all(|matrix| matrix.len() == *count));
+            (*nodes, *place, *responses) = (sources.to_vec(), damping, starts);
+        }
+    }
+
+    /// Rows by fours, within these node by node: the order in which the series code reads them.
+    fn push_weights(&mut self, rows: &[Vec<f64>], columns: usize) {
+        for block in rows.chunks(4) {
+            for column in 0..columns {
+                self.coefficients
+                    .extend(block.iter().map(|row| row[column]));
+            }
+        }
+    }
+
+    /// Products of two nodes each. Many at once are faster than one by one.
     pub fn products(&mut self, pairs: &[(Node, Node)]) -> Vec<Node> {
         let first = self.nodes;
         self.push(RawOp::Products(pairs.to_vec()));
@@ -367,14 +519,27 @@ impl SystemBuilder {
 
     /// `node` times a number that depends on the mode of `unit`, one for each mode.
     pub fn gate(&mut self, unit: Unit, by_mode: &[f64], node: Node) -> Node {
-        let out = self.linear(0.0, &[(by_mode[0], node)]);
-        self.switched
-            .push((self.coefficients.len() - 1, unit.0, by_mode.to_vec()));
+        self.gated_linear(unit, by_mode, &[(1.0, node)])
+    }
+
+    /// A sum without constant, times a number that depends on the mode of `unit`, one for each mode.
+    pub fn gated_linear(&mut self, unit: Unit, by_mode: &[f64], terms: &[(f64, Node)]) -> Node {
+        let first = self.coefficients.len() + 1;
+        let out = self.linear(0.0, terms);
+        for (i, (weight, _)) in terms.iter().enumerate() {
+            let values = by_mode.iter().map(|gate| gate * weight).collect();
+            self.switched.push((first + i, unit.0, values));
+        }
         out
     }
 
     /// Sets x' of state `index`.
     pub fn derivative(&mut self, index: usize, value: Node) {
+        // States move on in the order of their indices, so one may only follow a later one directly.
+        let value = match value {
+            Node::State(i) if i <= index => self.linear(0.0, &[(1.0, value)]),
+            _ => value,
+        };
         self.derivative[index] = Some(value);
     }
 
@@ -421,11 +586,14 @@ impl SystemBuilder {
                 value: self.coefficients[index],
             });
         }
-        let mut structure = Structure::new(self.derivative.len(), &self.ops)?;
+        let mut structure = Structure::new(&Parts {
+            states: self.derivative.len(),
+            ops: &self.ops,
+            derivative: &self.derivative,
+            units: &self.units,
+        })?;
         structure.controlled -= self.quadratures;
         structure.drive = self.drive.map(|_| (self.declared, self.declared + 1));
-        structure.derive(&self.derivative)?;
-        structure.watch(&self.units)?;
         let mut tables = Vec::new();
         for (slot, unit, values) in &self.switched {
             if self.units[*unit].len() != values.len() {
@@ -439,7 +607,11 @@ impl SystemBuilder {
                     value,
                 });
             }
-            structure.switched.push((*slot, *unit, tables.len()));
+            for (place, &coefficient) in structure.stream.iter().enumerate() {
+                if coefficient as usize == *slot {
+                    structure.switched.push((place, *unit, tables.len()));
+                }
+            }
             tables.extend(values);
         }
         Ok(System {

@@ -27,7 +27,7 @@ pub(crate) fn run<T: Task>(
     while let Some(mut task) = tasks.next() {
         if let Some(leg) = task.begin() {
             let structure = &leg.system.structure;
-            let kernel = Kernel::new(structure, leg.system.coefficients.len(), tolerance, order);
+            let kernel = Kernel::new(structure, tolerance, order);
             return Ensemble::new(kernel).run(options, (task, leg), tasks, stop, done);
         }
         done(task);
@@ -35,12 +35,10 @@ pub(crate) fn run<T: Task>(
     Ok(())
 }
 
-/// What a lane does in the coming step.
+/// What a lane does in the coming step, if that is more than to go on.
 #[derive(Clone, Copy, Default)]
 struct Plan {
-    length: f64,
     firing: Option<Firing>,
-    period_ends: bool,
     failed: bool,
 }
 
@@ -82,8 +80,11 @@ impl<T: Task> Ensemble<T> {
         while self.lanes.iter().any(Option::is_some) {
             check_stop(stop)?;
             self.kernel.expand();
-            for slot in 0..LANES {
-                self.plan(slot);
+            self.plans = Default::default();
+            for (slot, look) in self.kernel.needs_a_look().into_iter().enumerate() {
+                if look {
+                    self.plan(slot);
+                }
             }
             self.kernel.advance();
             for slot in 0..LANES {
@@ -127,13 +128,14 @@ impl<T: Task> Ensemble<T> {
             }
             let lane = Lane::new(task, &next)?;
             if lane.is_over() {
-                (task, leg) = lane.finish(Status::Completed);
+                (task, leg) = lane.finish(Status::Completed, &next.start.x);
                 continue;
             }
             self.kernel.set_state(slot, &next.start.x);
             self.kernel
-                .set_coefficients(slot, &next.system.coefficients_in(&lane.guarded.modes));
+                .set_system(slot, &next.system, &lane.guarded.modes);
             self.kernel.left.0[slot] = lane.left();
+            self.kernel.watch(slot, &lane.guarded, lane.wants_steps);
             self.lanes[slot] = Some(lane);
             return Ok(None);
         }
@@ -146,17 +148,11 @@ impl<T: Task> Ensemble<T> {
             return;
         };
         let (kernel, structure) = (&self.kernel, &self.kernel.structure);
-        let plan = &mut self.plans[slot];
-        *plan = Plan {
-            failed: !kernel.is_finite(slot),
-            ..Plan::default()
-        };
-        if plan.failed {
+        if !kernel.is_finite(slot) {
+            self.plans[slot].failed = true;
             return;
         }
-        let length = kernel.lengths.0[slot];
-        plan.length = length;
-        plan.period_ends = length >= kernel.left.0[slot];
+        let whole = kernel.lengths.0[slot];
         let guarded = &lane.guarded;
         let (firing, touches) =
             guarded.next(structure, &kernel.table, kernel.order, |watch, power| {
@@ -165,28 +161,24 @@ impl<T: Task> Ensemble<T> {
                     return false;
                 }
                 in_fractions(
-                    kernel.power(slot, watch.guard_node(structure)),
-                    length,
+                    kernel.power(slot, watch.guard_slot(structure)),
+                    whole,
                     power,
                 );
                 true
             });
-        lane.touched(touches, length);
-        if let Some(firing) = firing {
-            plan.firing = Some(firing);
-            plan.length = firing.theta * length;
-            plan.period_ends &= firing.theta == 1.0;
-        }
-        if plan.length > 0.0 {
+        lane.touched(touches, whole);
+        let length = firing.map_or(whole, |firing| firing.theta * whole);
+        if length > 0.0 {
             if lane.wants_steps {
                 self.dense.clear();
-                for state in 0..structure.states {
+                for &state in &structure.state_slots {
                     self.dense.extend(kernel.power(slot, state));
                 }
                 let step = Step {
                     period: lane.period,
                     time: lane.time,
-                    length: plan.length,
+                    length,
                     modes: &lane.guarded.modes,
                     degree: kernel.order,
                     power: &self.dense,
@@ -194,42 +186,65 @@ impl<T: Task> Ensemble<T> {
                 lane.task.step(&step);
             }
             lane.guarded.advanced(kernel.order, |guard, power| {
-                in_fractions(
-                    kernel.power(slot, structure.guards[guard]),
-                    plan.length,
-                    power,
-                );
+                let slots = &structure.guard_slots;
+                in_fractions(kernel.power(slot, slots[guard]), length, power);
             });
         }
-        self.kernel.lengths.0[slot] = plan.length;
+        self.plans[slot].firing = firing;
+        self.kernel.lengths.0[slot] = length;
+        // A switch changes more, and is booked after the step.
+        if firing.is_none() {
+            self.kernel.watch(slot, &lane.guarded, lane.wants_steps);
+        }
     }
 
-    /// Books the step; `Some` if the leg is over.
+    /// Books the step; `Some` if the leg is over. The state at the end of the leg is then in `x`.
+    #[inline(always)]
     fn book(&mut self, slot: usize, options: &Options) -> Option<Status> {
         let lane = self.lanes[slot].as_mut()?;
+        let length = self.kernel.lengths.0[slot];
+        let left = &mut self.kernel.left.0[slot];
+        let plan = &self.plans[slot];
+        let eventful = plan.firing.is_some() || plan.failed || length >= *left;
+        if !eventful && self.kernel.overflow.0[slot] == 0.0 && lane.pass(options, length) {
+            *left = lane.left();
+            return None;
+        }
+        self.book_event(slot, options, eventful)
+    }
+
+    /// Books a step with a switch, the end of a period or of the trajectory.
+    fn book_event(&mut self, slot: usize, options: &Options, eventful: bool) -> Option<Status> {
+        let lane = self.lanes[slot].as_mut()?;
         let plan = self.plans[slot];
-        if plan.failed {
-            let finite = |state: &usize| self.kernel.power(slot, *state).all(f64::is_finite);
-            let bad = (0..self.x.len()).find(|state| !finite(state)).unwrap_or(0);
-            return Some(lane.not_finite(bad));
+        let kernel = &mut self.kernel;
+        if plan.failed || !kernel.has_finite_state(slot) {
+            let status = if plan.failed {
+                // The state may be finite while its series is not.
+                let slots = &kernel.structure.state_slots;
+                let finite = |state: usize| kernel.power(slot, slots[state]).all(f64::is_finite);
+                let states = (0..self.x.len()).map(|i| if finite(i) { 0.0 } else { f64::NAN });
+                lane.not_finite(states)
+            } else {
+                kernel.state(slot, &mut self.x);
+                lane.not_finite(self.x.iter().copied())
+            };
+            kernel.state_before(slot, &mut self.x);
+            return Some(status);
         }
-        self.kernel.state(slot, &mut self.x);
-        let next = lane.accept(
-            options,
-            plan.length,
-            plan.firing,
-            plan.period_ends,
-            &mut self.x,
-        );
-        // Most steps neither switch nor end a period and leave the state as it is.
-        if plan.firing.is_some() || plan.period_ends {
-            self.kernel.set_state(slot, &self.x);
+        kernel.state(slot, &mut self.x);
+        if !eventful {
+            return Some(lane.too_many_steps());
         }
+        let length = kernel.lengths.0[slot];
+        let period_ends = length >= kernel.left.0[slot];
+        let next = lane.accept(options, length, plan.firing, period_ends, &mut self.x);
+        kernel.set_state(slot, &self.x);
         if plan.firing.is_some() {
-            let values = lane.system.coefficients_in(&lane.guarded.modes);
-            self.kernel.set_coefficients(slot, &values);
+            kernel.set_modes(slot, &lane.system, &lane.guarded.modes);
+            kernel.watch(slot, &lane.guarded, lane.wants_steps);
         }
-        self.kernel.left.0[slot] = lane.left();
+        kernel.left.0[slot] = lane.left();
         match next {
             Next::Go => None,
             Next::Over(status) => Some(status),
@@ -246,7 +261,7 @@ impl<T: Task> Ensemble<T> {
     ) -> Result<(), IntegrateError> {
         if let Some(lane) = self.lanes[slot].take() {
             self.kernel.clear(slot);
-            let (task, next) = lane.finish(status);
+            let (task, next) = lane.finish(status, &self.x);
             if let Some(task) = self.occupy(slot, task, next)? {
                 done(task);
                 self.refill(slot, tasks, done)?;

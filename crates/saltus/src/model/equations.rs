@@ -18,13 +18,11 @@
 //!   m_j n_j and zero else.
 //! - (10) prints + k_h; with it the reaction at rest would be minus the weight.
 
-use std::collections::HashMap;
-
 use saltus_hybrid::{BuildError, Mode, Node, System, SystemBuilder, Transition, Unit};
 
 use super::energy::{BaseMotion, EnergyLedger};
-use super::{Inertia, Layout, PreparedPlate, Scales, Setup};
-use crate::physics::{ContactLaw, Jumper, QuarticTerm};
+use super::{Layout, PreparedPlate, Scales, Setup};
+use crate::physics::{ContactLaw, Jumper};
 
 /// Contact state of one jumper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -54,6 +52,8 @@ impl Contact {
 pub(crate) struct Equations {
     pub(crate) system: System,
     pub(crate) leg_force: Vec<Node>,
+    /// R_j''.
+    pub(crate) plate_acceleration: Vec<Node>,
     pub(crate) ledger: Option<EnergyLedger>,
 }
 
@@ -109,7 +109,11 @@ pub(crate) fn build(
         .iter()
         .map(|g| g / e.transverse_mass * amplitude)
         .collect();
-    let elastic = elastic_forces(&mut b, setup, plate, scales, layout);
+    let base = b.linear(0.0, &[(1.0, cos), (damping, sin)]);
+    let elastic = plate
+        .stretching
+        .forces(&mut b, e, setup.inertia, scales, layout);
+    let mut plate_acceleration = Vec::with_capacity(loads.len());
     for (j, &load) in loads.iter().enumerate() {
         let mut terms = vec![
             (
@@ -117,10 +121,9 @@ pub(crate) fn build(
                 b.state(layout.r(j)),
             ),
             (-damping, b.state(layout.dr(j))),
-            (load, cos),
-            (load * damping, sin),
+            (load, base),
         ];
-        terms.extend(elastic.transverse[j].map(|node| (-1.0, node)));
+        terms.extend(elastic.transverse[j].iter().map(|&node| (-1.0, node)));
         terms.extend(
             legs.iter()
                 .map(|leg| (-leg.mass_ratio * leg.psi[j], leg.gated)),
@@ -128,6 +131,7 @@ pub(crate) fn build(
         let acceleration = b.linear(0.0, &terms);
         b.derivative(layout.r(j), b.state(layout.dr(j)));
         b.derivative(layout.dr(j), acceleration);
+        plate_acceleration.push(acceleration);
     }
     for i in 0..layout.in_plane {
         let mut terms = elastic.in_plane[i].clone();
@@ -149,144 +153,9 @@ pub(crate) fn build(
     Ok(Equations {
         system: b.build(0.0)?,
         leg_force: legs.iter().map(|leg| leg.force).collect(),
+        plate_acceleration,
         ledger,
     })
-}
-
-/// Elastic forces beyond linear bending, as nodes.
-struct Elastic {
-    /// sum_k T_jk R_k; none where nothing couples.
-    transverse: Vec<Option<Node>>,
-    /// Terms of P_i''.
-    in_plane: Vec<Vec<(f64, Node)>>,
-}
-
-fn elastic_forces(
-    b: &mut SystemBuilder,
-    setup: &Setup,
-    plate: &PreparedPlate,
-    scales: &Scales,
-    layout: Layout,
-) -> Elastic {
-    let e = &plate.elasticity;
-    let n = layout.transverse;
-    let h = scales.length;
-    let per_mass = 1.0 / (e.transverse_mass * scales.omega.powi(2));
-    // All products R_j R_k, j <= k.
-    let factors: Vec<_> = pairs(n)
-        .map(|(j, k)| (b.state(layout.r(j)), b.state(layout.r(k))))
-        .collect();
-    let squares: HashMap<(usize, usize), Node> = pairs(n).zip(b.products(&factors)).collect();
-    // T_jk as sums over R_l R_m and P_i.
-    let mut tension: HashMap<(usize, usize), Vec<(f64, Node)>> = HashMap::new();
-    let quartic = match setup.inertia {
-        Inertia::Full => &e.quartic,
-        Inertia::Condensed => &plate.condensed,
-    };
-    for term in quartic {
-        for ((j, k), (l, m), weight) in splits(term) {
-            let value = 4.0 * weight * term.value * h * h * per_mass;
-            tension
-                .entry((j, k))
-                .or_default()
-                .push((value, squares[&(l, m)]));
-        }
-    }
-    let mut in_plane = vec![Vec::new(); layout.in_plane];
-    if setup.inertia == Inertia::Full {
-        for term in &e.coupling {
-            let p = b.state(layout.p(term.i));
-            tension
-                .entry((term.j, term.k))
-                .or_default()
-                .push((2.0 * term.value * h * per_mass, p));
-            let inertia = e.in_plane_mass[term.i] * scales.omega.powi(2);
-            let value = -term.multiplicity() * term.value * h / inertia;
-            in_plane[term.i].push((value, squares[&(term.j, term.k)]));
-        }
-        for (i, terms) in in_plane.iter_mut().enumerate() {
-            let inertia = e.in_plane_mass[i] * scales.omega.powi(2);
-            for k in (0..layout.in_plane).filter(|&k| e.membrane_at(i, k) != 0.0) {
-                terms.push((-e.membrane_at(i, k) / inertia, b.state(layout.p(k))));
-            }
-        }
-    }
-    let tension = tension_nodes(b, &tension, n);
-    let transverse = (0..n)
-        .map(|j| {
-            let products: Vec<_> = (0..n)
-                .filter_map(|k| {
-                    let node = tension.get(&(j.min(k), j.max(k)))?;
-                    Some((*node, b.state(layout.r(k))))
-                })
-                .collect();
-            (!products.is_empty()).then(|| b.dot(&products))
-        })
-        .collect();
-    Elastic {
-        transverse,
-        in_plane,
-    }
-}
-
-/// One node per T_jk that is not zero: as a matrix where that is mostly full, else as sums.
-fn tension_nodes(
-    b: &mut SystemBuilder,
-    tension: &HashMap<Pair, Vec<(f64, Node)>>,
-    n: usize,
-) -> HashMap<Pair, Node> {
-    let present: Vec<(Pair, &Vec<(f64, Node)>)> = pairs(n)
-        .filter_map(|pair| Some((pair, tension.get(&pair)?)))
-        .collect();
-    let mut nodes: Vec<Node> = Vec::new();
-    for (_, node) in present.iter().flat_map(|(_, terms)| terms.iter()) {
-        if !nodes.contains(node) {
-            nodes.push(*node);
-        }
-    }
-    let entries: usize = present.iter().map(|(_, terms)| terms.len()).sum();
-    if 2 * entries < present.len() * nodes.len() {
-        return present
-            .into_iter()
-            .map(|(pair, terms)| (pair, b.linear(0.0, terms)))
-            .collect();
-    }
-    let row = |terms: &[(f64, Node)]| -> Vec<f64> {
-        let entry = |node: &Node| terms.iter().filter(|t| t.1 == *node).map(|t| t.0).sum();
-        nodes.iter().map(entry).collect()
-    };
-    let rows: Vec<Vec<f64>> = present.iter().map(|(_, terms)| row(terms)).collect();
-    present
-        .iter()
-        .map(|(pair, _)| *pair)
-        .zip(b.matrix(&nodes, &rows))
-        .collect()
-}
-
-/// A pair of transverse indices, the smaller first.
-type Pair = (usize, usize);
-
-/// j <= k < n, in a fixed order.
-fn pairs(n: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..n).flat_map(move |k| (0..=k).map(move |j| (j, k)))
-}
-
-/// (j <= k), (l <= m), and the number of orders of (l, m).
-type Split = (Pair, Pair, f64);
-
-/// The distinct ways to split a sorted quadruple into (j <= k) and (l <= m), with the number of
-/// orders of (l, m): the entries of sum_lm Q_jklm R_l R_m for each pair jk.
-fn splits(term: &QuarticTerm) -> Vec<Split> {
-    let q = term.indices();
-    let mut out: Vec<Split> = Vec::new();
-    for (first, second) in [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)] {
-        let rest: Vec<usize> = (0..4).filter(|i| *i != first && *i != second).collect();
-        let (outer, inner) = ((q[first], q[second]), (q[rest[0]], q[rest[1]]));
-        if !out.iter().any(|o| o.0 == outer && o.1 == inner) {
-            out.push((outer, inner, if inner.0 == inner.1 { 1.0 } else { 2.0 }));
-        }
-    }
-    out
 }
 
 /// Compression, force and contact of one jumper.
@@ -324,7 +193,11 @@ fn leg(
     let force = b.linear(0.0, &[(stiffness, gap), (damping, rate)]);
 
     let unit = b.reserve_unit();
-    let gated = b.gate(unit, on_floor(setup.contact), force);
+    let gated = b.gated_linear(
+        unit,
+        on_floor(setup.contact),
+        &[(stiffness, gap), (damping, rate)],
+    );
     let weight = -setup.gravity / scales.acceleration();
     let fall = b.linear(weight, &[(1.0, gated)]);
     b.derivative(layout.z(index), dz);
@@ -399,34 +272,3 @@ fn relaxing(
 // The unit of a jumper and its place in the list of jumpers are the same number, because legs are
 // declared in that order and nothing else switches.
 const _: () = assert!(STANCE == 0 && FLIGHT == 1 && LIFTED == 2);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn splits_cover_the_full_quartic_sum() {
-        // For indices jklm all different: 6 outer pairs, each with two orders inside.
-        let term = |j, k, l, m| QuarticTerm {
-            j,
-            k,
-            l,
-            m,
-            value: 1.0,
-        };
-        for (term, outer) in [
-            (term(0, 1, 2, 3), 6),
-            (term(0, 0, 0, 0), 1),
-            (term(0, 0, 1, 1), 3),
-        ] {
-            let parts = splits(&term);
-            assert_eq!(parts.len(), outer);
-            // sum over ordered outer pairs of the inner weights = number of orders of the quadruple
-            let total: f64 = parts
-                .iter()
-                .map(|(o, _, w)| w * if o.0 == o.1 { 1.0 } else { 2.0 })
-                .sum();
-            assert_eq!(total, term.multiplicity());
-        }
-    }
-}

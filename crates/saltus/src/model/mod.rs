@@ -4,8 +4,11 @@
 //! thicknesses h and time in radians of the drive (tau = Omega t); [`Scales`] is the only type that
 //! converts. The engine receives a program of sums and products and knows nothing of plates.
 
+mod elastic;
 mod energy;
 mod equations;
+mod frame;
+mod probe;
 mod scales;
 mod state;
 
@@ -13,9 +16,11 @@ use std::sync::Arc;
 
 use saltus_hybrid::{BuildError, Evaluator, Node, Options, System};
 
-use crate::physics::{Base, ContactLaw, Elasticity, Jumper, PhysicsError, Plate, QuarticTerm};
+use crate::physics::{Base, ContactLaw, Elasticity, Jumper, PhysicsError, Plate};
+use elastic::Stretching;
 pub use energy::{EnergyBalance, EnergyLedger};
 pub use equations::Contact;
+pub use probe::{Probe, Reading};
 pub use scales::Scales;
 pub use state::{Observation, Section};
 
@@ -25,6 +30,10 @@ pub enum Inertia {
     /// All degrees of freedom, as DP integrates them: in-plane motion at hundreds of hertz included.
     #[default]
     Full,
+    /// In-plane amplitudes follow the transverse ones as an oscillator far above its driving frequency
+    /// does: statically, and by two terms of its inertia and damping. What is lost are their free
+    /// oscillations. XXX
+    SlowManifold,
     /// In-plane amplitudes follow statically, p = -K^-1 B r r. For the paper's plate orbits differ
     /// from the full ones by less than 1e-3 eta (4e-6 far from bifurcations, see `tests/motion.rs` and
     /// `saltus reproduce`), at some fiftieth of the cost.
@@ -36,6 +45,7 @@ impl Inertia {
     pub fn name(self) -> &'static str {
         match self {
             Self::Full => "full",
+            Self::SlowManifold => "slow-manifold",
             Self::Condensed => "condensed",
         }
     }
@@ -79,6 +89,17 @@ pub enum ModelError {
         /// The law.
         law: &'static str,
     },
+    /// More w terms than the slow manifold is written for.
+    #[error(
+        "plate.inertia = \"slow-manifold\" with {terms} w terms: at most {limit} are possible; \
+         take \"condensed\" or \"full\""
+    )]
+    SlowManifold {
+        /// Terms of the plate.
+        terms: usize,
+        /// Most possible.
+        limit: usize,
+    },
     /// Numbers that combine to something no machine can hold.
     #[error("the equations of motion are out of range ({0}); are the numbers in SI units?")]
     Range(#[from] BuildError),
@@ -106,22 +127,22 @@ pub struct PreparedPlate {
     pub plate: Plate,
     /// Its coefficients.
     pub elasticity: Elasticity,
-    /// Quartic energy with the in-plane terms condensed.
-    pub condensed: Vec<QuarticTerm>,
+    /// What its stretching contributes to the equations.
+    pub(crate) stretching: Stretching,
 }
 
 impl PreparedPlate {
     /// Computes all coefficients.
     ///
     /// # Errors
-    /// As [`Plate::elasticity`] and [`Elasticity::condensed_quartic`].
+    /// As [`Plate::elasticity`].
     pub fn new(plate: &Plate) -> Result<Arc<Self>, PhysicsError> {
         let elasticity = plate.elasticity()?;
-        let condensed = elasticity.condensed_quartic()?;
+        let stretching = Stretching::new(&elasticity)?;
         Ok(Arc::new(Self {
             plate: plate.clone(),
             elasticity,
-            condensed,
+            stretching,
         }))
     }
 }
@@ -136,6 +157,8 @@ pub struct Model {
     pub(crate) system: System,
     /// Spring-damper force on each jumper, in force also in flight (divide by m_h h Omega^2).
     pub(crate) leg_force: Vec<Node>,
+    /// R_j'' of each transverse term (multiply by h Omega^2).
+    pub(crate) plate_acceleration: Vec<Node>,
     pub(crate) ledger: Option<EnergyLedger>,
 }
 
@@ -256,12 +279,16 @@ impl Model {
         with_energy: bool,
     ) -> Result<Self, ModelError> {
         setup.check()?;
+        if setup.inertia == Inertia::SlowManifold && !plate.stretching.has_slow_manifold() {
+            let (terms, limit) = (plate.elasticity.bending.len(), elastic::MANY - 1);
+            return Err(ModelError::SlowManifold { terms, limit });
+        }
         let omega = setup.base.omega(&setup.plate, &setup.jumpers)?;
         let scales = Scales::new(setup, omega);
         let layout = Layout {
             in_plane: match setup.inertia {
                 Inertia::Full => plate.elasticity.in_plane_mass.len(),
-                Inertia::Condensed => 0,
+                Inertia::SlowManifold | Inertia::Condensed => 0,
             },
             transverse: plate.elasticity.bending.len(),
             jumpers: setup.jumpers.len(),
@@ -275,6 +302,7 @@ impl Model {
             layout,
             system: equations.system,
             leg_force: equations.leg_force,
+            plate_acceleration: equations.plate_acceleration,
             ledger: equations.ledger,
         })
     }
@@ -305,6 +333,12 @@ impl Model {
         self.system = self.system.clone().sharing(&other.system);
     }
 
+    /// As [`Self::share_structure`] with a system; whether it has the same program.
+    pub(crate) fn share_system(&mut self, other: &System) -> bool {
+        self.system = self.system.clone().sharing(other);
+        self.system.same_structure(other)
+    }
+
     /// An evaluator of forces and accelerations at states of this model.
     pub fn evaluator(&self) -> Evaluator {
         Evaluator::new(&self.system)
@@ -321,7 +355,7 @@ impl Model {
         let occupied = plate.occupied(&self.setup.jumpers)?.hz;
         let in_plane = match self.setup.inertia {
             Inertia::Full => plate.in_plane_frequencies_hz()?,
-            Inertia::Condensed => Vec::new(),
+            Inertia::SlowManifold | Inertia::Condensed => Vec::new(),
         };
         let highest = occupied
             .iter()

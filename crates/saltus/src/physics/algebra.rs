@@ -64,27 +64,22 @@ pub(super) fn eigenpairs(
         .collect())
 }
 
-/// X = A^-1 B for symmetric positive definite A (`size` x `size`) and B (`size` x `cols`),
-/// row-major.
-pub(super) fn solve_positive_definite(
+/// The lower L with L L^T = A, for symmetric positive definite A (`size` x `size`), row-major.
+pub(super) fn cholesky(
     what: &'static str,
     size: usize,
     a: &[f64],
-    cols: usize,
-    b: &[f64],
 ) -> Result<Vec<f64>, PhysicsError> {
-    if size == 0 {
-        return Ok(Vec::new());
-    }
-    let (a, b) = (matrix(what, size, size, a)?, matrix(what, size, cols, b)?);
-    let factor = a.llt(Side::Lower).map_err(|error| PhysicsError::Algebra {
-        what,
-        reason: format!("the stiffness matrix is not positive definite ({error:?})"),
-    })?;
-    let x = factor.solve(&b);
+    let factor = matrix(what, size, size, a)?
+        .llt(Side::Lower)
+        .map_err(|error| PhysicsError::Algebra {
+            what,
+            reason: format!("the stiffness matrix is not positive definite ({error:?})"),
+        })?;
+    let lower = factor.L();
     Ok((0..size)
-        .flat_map(|row| (0..cols).map(move |col| (row, col)))
-        .map(|at| x[at])
+        .flat_map(|row| (0..size).map(move |col| (row, col)))
+        .map(|(row, col)| if col <= row { lower[(row, col)] } else { 0.0 })
         .collect())
 }
 

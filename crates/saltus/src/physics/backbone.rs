@@ -29,11 +29,8 @@ impl Plate {
             ..self.clone()
         };
         let elasticity = plate.elasticity()?;
-        // Q_eff is the minimum over p of a sum of squares; it can be zero, and is then not listed
-        let quartic = elasticity
-            .condensed_quartic()?
-            .first()
-            .map_or(0.0, |q| q.value);
+        // Q_eff r^4 at r = 1 m
+        let quartic = elasticity.condensed_stretching(&[1.0]);
         let bending = elasticity.bending[0];
         Ok(OneMode {
             omega: (bending / elasticity.transverse_mass).sqrt(),

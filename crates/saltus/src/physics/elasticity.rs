@@ -9,14 +9,15 @@
 //!
 //! the sums running over *all* index values, B symmetric in jk and Q in all four indices. The
 //! sparse lists hold one entry per set of indices; `multiplicity` says how often it occurs in the
-//! full sum.
+//! full sum. Energies and forces go through the strain harmonics ([`Harmonics`]) and need no lists.
 
-use super::{PhysicsError, Plate, algebra, tensors};
+use super::factor::Factor;
+use super::{CouplingTerm, Harmonics, PhysicsError, Plate, QuarticTerm, in_plane, lists};
 
-/// More w terms than this and the N^4/24 entries of Q no longer make sense.
-const MAX_TRANSVERSE: usize = 64;
+/// More w terms than this and even pairs of them, strain by strain, no longer make sense.
+const MAX_TRANSVERSE: usize = 400;
 /// More in-plane terms than this and the dense K no longer makes sense.
-const MAX_IN_PLANE: usize = 2048;
+const MAX_IN_PLANE: usize = 4096;
 
 /// Inertia, damping and elastic coefficients of a plate, in SI units.
 ///
@@ -37,84 +38,28 @@ pub struct Elasticity {
     pub bending: Vec<f64>,
     /// K (N/m), N_p x N_p, symmetric, row-major; see [`Elasticity::membrane_at`].
     pub membrane: Vec<f64>,
-    /// Nonzero B_ijk with j <= k, sorted by i, j, k.
+    /// Nonzero B_ijk with j <= k, sorted by i, j, k; empty above [`Elasticity::MAX_LISTED`] w terms.
     pub coupling: Vec<CouplingTerm>,
-    /// Nonzero Q_jklm with j <= k <= l <= m, sorted.
+    /// Nonzero Q_jklm with j <= k <= l <= m, sorted; empty above [`Elasticity::MAX_LISTED`] w terms.
     pub quartic: Vec<QuarticTerm>,
+    /// B and Q through the harmonics of the strains, for any number of terms.
+    pub harmonics: Harmonics,
     /// G_j = rho h ∫ psi_j = 16 M/(pi^2 m n) (kg) for odd m and n, else 0; length N_w.
     /// The base acceleration times G_j is the inertial load on r_j.
     pub base_load: Vec<f64>,
-    /// K^-1 B, N_p x pairs(jk), row-major.
-    response: Vec<f64>,
-}
-
-/// One independent entry of B.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CouplingTerm {
-    /// In-plane index, 0..N_p.
-    pub i: usize,
-    /// Transverse index.
-    pub j: usize,
-    /// Transverse index, j <= k.
-    pub k: usize,
-    /// B_ijk itself (N/m^2). For j < k the energy holds it twice, as B_ijk and B_ikj.
-    pub value: f64,
-}
-
-/// One independent entry of Q (or of the condensed Q).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct QuarticTerm {
-    /// Smallest index.
-    pub j: usize,
-    /// Second index.
-    pub k: usize,
-    /// Third index.
-    pub l: usize,
-    /// Largest index.
-    pub m: usize,
-    /// Q_jklm itself (N/m^3). The energy holds it once per distinct order of its indices.
-    pub value: f64,
-}
-
-impl CouplingTerm {
-    /// How often the entry occurs in the full sum: 1 if j = k, else 2.
-    pub fn multiplicity(&self) -> f64 {
-        if self.j == self.k { 1.0 } else { 2.0 }
-    }
-}
-
-impl QuarticTerm {
-    /// How often the entry occurs in the full sum: the number of distinct orders of (j, k, l, m).
-    pub fn multiplicity(&self) -> f64 {
-        // 4!/(product of the factorials of the lengths of runs of equal indices)
-        let indices = self.indices();
-        let (mut orders, mut run) = (24, 1);
-        for pair in indices.windows(2) {
-            run = if pair[0] == pair[1] { run + 1 } else { 1 };
-            orders /= run;
-        }
-        f64::from(orders)
-    }
-
-    /// (j, k, l, m) as an array.
-    pub fn indices(&self) -> [usize; 4] {
-        [self.j, self.k, self.l, self.m]
-    }
-}
-
-/// Position of the pair j <= k among all pairs.
-fn pair(j: usize, k: usize) -> usize {
-    k * (k + 1) / 2 + j
+    /// K by its Cholesky factors.
+    pub(super) factor: Factor,
 }
 
 impl Plate {
     /// Computes all coefficients by exact integration.
     ///
-    /// Cost: N_w^4/24 + N_p N_w^2/2 exact integrals and a Cholesky factorization of size N_p; 16 w
-    /// terms with their complete in-plane set take milliseconds.
+    /// Cost: N_p^2 + N_p rows integrals, 6 N_w^2 strain entries and the Cholesky factorization of
+    /// K's blocks; 100 w terms with their complete in-plane set take a fraction of a second. Up to
+    /// [`Elasticity::MAX_LISTED`] w terms the lists of B and Q are written out besides.
     ///
     /// # Errors
-    /// Those of [`Plate::check`]; [`PhysicsError::Modes`] for more than 64 w or 2048 in-plane
+    /// Those of [`Plate::check`]; [`PhysicsError::Modes`] for more than 400 w or 4096 in-plane
     /// terms; [`PhysicsError::Algebra`] if a coefficient overflows or vanishes, or K is not
     /// positive definite.
     pub fn elasticity(&self) -> Result<Elasticity, PhysicsError> {
@@ -128,33 +73,38 @@ impl Plate {
                 ),
             });
         }
-        let mut elasticity = Elasticity {
+        let membrane = in_plane::membrane(self);
+        let harmonics = Harmonics::new(self);
+        if !harmonics.is_sound() || !is_sound(in_plane, &membrane) {
+            return Err(self.overflow());
+        }
+        let (mut coupling, mut quartic) = (Vec::new(), Vec::new());
+        if transverse <= Elasticity::MAX_LISTED {
+            coupling = lists::coupling(&harmonics, in_plane);
+            quartic = lists::quartic(&harmonics, transverse, None)?;
+        }
+        Ok(Elasticity {
             transverse_mass: self.modal_mass(),
-            in_plane_mass: tensors::in_plane_mass(self),
+            in_plane_mass: in_plane::in_plane_mass(self),
             damping: self.damping(),
             first_omega: self.first_omega(),
             bending: self.bending_stiffness(),
-            membrane: tensors::membrane(self),
-            coupling: tensors::coupling(self),
-            quartic: tensors::quartic(self),
+            factor: Factor::new(in_plane, &membrane)?,
+            membrane,
+            coupling,
+            quartic,
+            harmonics,
             base_load: self.base_load(),
-            response: Vec::new(),
-        };
-        if !elasticity.is_sound() {
-            return Err(self.overflow());
-        }
-        elasticity.response = algebra::solve_positive_definite(
-            "in-plane response to deflection",
-            in_plane,
-            &elasticity.membrane,
-            pair(0, transverse),
-            &elasticity.dense_coupling(),
-        )?;
-        Ok(elasticity)
+        })
     }
 }
 
 impl Elasticity {
+    /// Up to this many w terms the lists `coupling` and `quartic` are written out. Beyond, their
+    /// N_p N_w^2/2 and N_w^4/24 entries cost more than they are worth; see
+    /// [`Elasticity::harmonics`].
+    pub const MAX_LISTED: usize = 16;
+
     /// K_ik (N/m).
     ///
     /// # Panics
@@ -165,195 +115,76 @@ impl Elasticity {
 
     /// Elastic energy U_p (J) for in-plane amplitudes `p` (m, N_p) and transverse `r` (m, N_w).
     pub fn strain_energy(&self, p: &[f64], r: &[f64]) -> f64 {
-        let n = p.len();
-        let membrane: f64 = (0..n)
-            .map(|i| {
-                (0..n)
-                    .map(|k| 0.5 * p[i] * self.membrane_at(i, k) * p[k])
-                    .sum::<f64>()
-            })
-            .sum();
-        let bending: f64 = self
-            .bending
-            .iter()
-            .zip(r)
-            .map(|(k, r)| 0.5 * k * r * r)
-            .sum();
-        let coupling: f64 = self
-            .coupling
-            .iter()
-            .map(|b| b.multiplicity() * b.value * p[b.i] * r[b.j] * r[b.k])
-            .sum();
-        membrane + bending + coupling + quartic_energy(&self.quartic, r)
+        let membrane = 0.5 * dot(p, &self.membrane_times(p));
+        // p.(C^T E) + 1/2 E.W E = E.(C p + W E/2)
+        let e = self.harmonics.strains(r);
+        let half: Vec<f64> = e.iter().map(|e| 0.5 * e).collect();
+        let stretching = dot(&e, &self.harmonics.stresses(&half, p));
+        membrane + self.bending_energy(r) + stretching
     }
 
     /// Gradient of [`Elasticity::strain_energy`] (N): (dU/dp, dU/dr), lengths N_p and N_w.
     pub fn elastic_force(&self, p: &[f64], r: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let n = p.len();
-        // K p + B r r
-        let mut on_p: Vec<f64> = (0..n)
-            .map(|i| (0..n).map(|k| self.membrane_at(i, k) * p[k]).sum())
+        let e = self.harmonics.strains(r);
+        // K p + C^T E, which is K p + B r r
+        let load = self.harmonics.load_on_in_plane(&e, p.len());
+        let on_p = self
+            .membrane_times(p)
+            .iter()
+            .zip(load)
+            .map(|(kp, s)| kp + s)
             .collect();
-        // K_b r + 2 B p r + 4 Q r r r
+        // K_b r + T r, which is K_b r + 2 B p r + 4 Q r r r
         let mut on_r: Vec<f64> = self.bending.iter().zip(r).map(|(k, r)| k * r).collect();
-        for b in &self.coupling {
-            let weight = b.multiplicity() * b.value;
-            on_p[b.i] += weight * r[b.j] * r[b.k];
-            on_r[b.j] += weight * p[b.i] * r[b.k];
-            on_r[b.k] += weight * p[b.i] * r[b.j];
-        }
-        add_quartic_force(&self.quartic, r, &mut on_r);
+        let tension = self.harmonics.tension(&self.harmonics.stresses(&e, p));
+        self.harmonics.add_force(&tension, r, &mut on_r);
         (on_p, on_r)
     }
 
     /// The in-plane amplitudes (m, N_p) in static equilibrium with `r` (m, N_w): p = -K^-1 B r r.
     pub fn in_plane_from_transverse(&self, r: &[f64]) -> Vec<f64> {
-        let pairs = pair(0, self.bending.len());
-        let mut p = vec![0.0; self.in_plane_mass.len()];
-        for (i, p) in p.iter_mut().enumerate() {
-            for k in 0..r.len() {
-                for j in 0..=k {
-                    let multiplicity = if j == k { 1.0 } else { 2.0 };
-                    *p -= multiplicity * self.response[i * pairs + pair(j, k)] * r[j] * r[k];
-                }
-            }
-        }
+        self.in_plane_from_strains(&self.harmonics.strains(r))
+    }
+
+    /// p = -K^-1 C^T E (m, N_p) for the strains `e` of a deflection.
+    pub(super) fn in_plane_from_strains(&self, e: &[f64]) -> Vec<f64> {
+        let load = self.harmonics.load_on_in_plane(e, self.in_plane_mass.len());
+        let mut p = self.factor.solve(&load);
+        p.iter_mut().for_each(|p| *p = -*p);
         p
     }
 
-    /// Q_eff = Q - 1/2 sym(B K^-1 B): the quartic energy left when the in-plane terms follow
-    /// statically. Sorted indices, nonzero entries only; equal to Q without in-plane terms.
-    ///
-    /// # Errors
-    /// [`PhysicsError::Algebra`] if the product overflows.
-    pub fn condensed_quartic(&self) -> Result<Vec<QuarticTerm>, PhysicsError> {
-        let (in_plane, transverse) = (self.in_plane_mass.len(), self.bending.len());
-        if in_plane == 0 {
-            return Ok(self.quartic.clone());
-        }
-        let pairs = pair(0, transverse);
-        let relief = algebra::transpose_times(
-            "condensed plate stiffness",
-            in_plane,
-            pairs,
-            &self.dense_coupling(),
-            &self.response,
-        )?;
-        let relief = |j: usize, k: usize, l: usize, m: usize| {
-            let pair = |a: usize, b: usize| pair(a.min(b), a.max(b));
-            relief[pair(j, k) * pairs + pair(l, m)]
-        };
-        // Hoelder's bound |Q_jklm|^4 <= Q_jjjj Q_kkkk Q_llll Q_mmmm sets the scale of rounding
-        let mut size = vec![0.0; transverse];
-        for q in self.quartic.iter().filter(|q| q.j == q.m) {
-            size[q.j] = q.value.powf(0.25);
-        }
-        let mut known = self.quartic.iter().peekable();
-        let mut terms = Vec::new();
-        tensors::for_each_sorted_quadruple(transverse, |[j, k, l, m]| {
-            let q = known
-                .next_if(|q| q.indices() == [j, k, l, m])
-                .map_or(0.0, |q| q.value);
-            let value = q - (relief(j, k, l, m) + relief(j, l, k, m) + relief(j, m, k, l)) / 6.0;
-            if value.abs() > 1e-13 * size[j] * size[k] * size[l] * size[m] {
-                terms.push(QuarticTerm { j, k, l, m, value });
-            }
-        });
-        Ok(terms)
+    /// 1/2 r.K_b r (J).
+    pub(super) fn bending_energy(&self, r: &[f64]) -> f64 {
+        self.bending
+            .iter()
+            .zip(r)
+            .map(|(k, r)| 0.5 * k * r * r)
+            .sum()
     }
 
-    /// B as a dense N_p x pairs(jk) matrix, row-major.
-    fn dense_coupling(&self) -> Vec<f64> {
-        let pairs = pair(0, self.bending.len());
-        let mut dense = vec![0.0; self.in_plane_mass.len() * pairs];
-        for b in &self.coupling {
-            dense[b.i * pairs + pair(b.j, b.k)] = b.value;
-        }
-        dense
-    }
-
-    /// Are all coefficients finite, and those that must be positive so?
-    fn is_sound(&self) -> bool {
-        let diagonal = (0..self.in_plane_mass.len()).map(|i| self.membrane_at(i, i));
-        let pure = self.quartic.iter().filter(|q| q.j == q.m).map(|q| q.value);
-        let couplings = self.coupling.iter().map(|b| b.value);
-        let quartics = self.quartic.iter().map(|q| q.value);
-        diagonal.chain(pure).all(|value| value > 0.0)
-            && self
-                .membrane
-                .iter()
-                .copied()
-                .chain(couplings)
-                .chain(quartics)
-                .all(f64::is_finite)
+    /// K p (N).
+    fn membrane_times(&self, p: &[f64]) -> Vec<f64> {
+        let rows = self.membrane.chunks_exact(p.len().max(1));
+        rows.map(|row| dot(row, p)).collect()
     }
 }
 
-/// Σ Q r r r r over all index values (J).
-pub(super) fn quartic_energy(terms: &[QuarticTerm], r: &[f64]) -> f64 {
-    let term = |q: &QuarticTerm| q.multiplicity() * q.value * r[q.j] * r[q.k] * r[q.l] * r[q.m];
-    terms.iter().map(term).sum()
+/// Is K finite with a positive diagonal?
+fn is_sound(size: usize, membrane: &[f64]) -> bool {
+    membrane.iter().all(|value| value.is_finite())
+        && (0..size).all(|i| membrane[i * size + i] > 0.0)
 }
 
-/// Adds 4 Q r r r, the gradient of [`quartic_energy`], to `force` (N).
-pub(super) fn add_quartic_force(terms: &[QuarticTerm], r: &[f64], force: &mut [f64]) {
-    for q in terms {
-        let weight = q.multiplicity() * q.value;
-        let [rj, rk, rl, rm] = q.indices().map(|index| r[index]);
-        force[q.j] += weight * rk * rl * rm;
-        force[q.k] += weight * rj * rl * rm;
-        force[q.l] += weight * rj * rk * rm;
-        force[q.m] += weight * rj * rk * rl;
-    }
-}
-
-/// Adds 12 Q r r, the Hessian of [`quartic_energy`], to the row-major `hessian` (N/m).
-pub(super) fn add_quartic_hessian(terms: &[QuarticTerm], r: &[f64], hessian: &mut [f64]) {
-    let size = r.len();
-    for q in terms {
-        let weight = q.multiplicity() * q.value;
-        let at = q.indices();
-        for first in 0..4 {
-            for second in (0..4).filter(|&second| second != first) {
-                let rest = (0..4).filter(|&other| other != first && other != second);
-                let product: f64 = rest.map(|other| r[at[other]]).product();
-                hessian[at[first] * size + at[second]] += weight * product;
-            }
-        }
-    }
+/// Σ a_i b_i.
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::physics::{InPlaneBasis, ModeSet};
-
-    #[test]
-    fn multiplicities_count_all_orders() {
-        for (indices, orders) in [
-            ([0, 0, 0, 0], 1.0),
-            ([0, 0, 0, 1], 4.0),
-            ([0, 1, 1, 1], 4.0),
-            ([0, 0, 1, 1], 6.0),
-            ([0, 1, 1, 2], 12.0),
-            ([0, 1, 2, 2], 12.0),
-            ([0, 1, 2, 3], 24.0),
-        ] {
-            let [j, k, l, m] = indices;
-            assert_eq!(
-                QuarticTerm {
-                    j,
-                    k,
-                    l,
-                    m,
-                    value: 1.0
-                }
-                .multiplicity(),
-                orders,
-                "{indices:?}"
-            );
-        }
-    }
 
     #[test]
     fn damping_follows_the_half_wave_11_even_if_w_lacks_it() {
@@ -369,7 +200,7 @@ mod tests {
 
     #[test]
     fn too_many_terms_are_refused_before_they_cost_anything() {
-        let modes = ModeSet::complete(9, 9, InPlaneBasis::Fixed);
+        let modes = ModeSet::complete(21, 20, InPlaneBasis::Fixed);
         let plate = Plate {
             modes,
             ..Plate::dias_del_prado()

@@ -1,6 +1,6 @@
 //! Natural frequencies: of the empty plate, in its plane, and with people standing on it.
 
-use super::{Jumper, PhysicsError, Plate, algebra, tensors};
+use super::{Jumper, PhysicsError, Plate, algebra, in_plane};
 use std::f64::consts::TAU;
 
 /// Undamped linear modes of the plate with every jumper in contact.
@@ -40,11 +40,11 @@ impl Plate {
     pub fn in_plane_frequencies_hz(&self) -> Result<Vec<f64>, PhysicsError> {
         self.check()?;
         let what = "in-plane frequencies";
-        let mass = tensors::in_plane_mass(self);
+        let mass = in_plane::in_plane_mass(self);
         let squares = algebra::eigenvalues(
             what,
             mass.len(),
-            &mass_scaled(tensors::membrane(self), &mass),
+            &mass_scaled(in_plane::membrane(self), &mass),
         )?;
         frequencies(what, squares)
     }

@@ -1,0 +1,88 @@
+//! Fast linear oscillators that follow the rest of the system, without being integrated.
+//!
+//! Let x solve K x + c M x' + M x'' = -q with frequencies far above those of q. Then x is, but for
+//! free oscillations that nothing excites, the series
+//!
+//! ```text
+//! x = -K^-1 q + K^-1 M K^-1 (D^2 + c D) q - ...        D = d/dt,
+//! ```
+//!
+//! an asymptotic one, whose terms fall by the squared ratio of the frequencies. Its first term is an
+//! ordinary sum; the others need derivatives of q along the very solution that x takes part in. A
+//! Taylor series has these: it is computed without them, then again with the derivatives of the last
+//! round, once for each term. The derivatives that a series of finite order lacks at its end matter
+//! as little as the terms that it omits.
+
+use crate::arith::Arith;
+use crate::series::block_rows;
+
+/// Nodes x_a = sum over n >= 1 of (R_n (D^2 + damping D)^n q)_a.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Adiabatic {
+    /// First slot of x.
+    pub(crate) out: usize,
+    pub(crate) count: usize,
+    /// First slot of q.
+    pub(crate) source: usize,
+    pub(crate) sources: usize,
+    /// Place of the damping in the stream.
+    pub(crate) damping: usize,
+    /// Places of R_1, R_2, ... in the stream, rows by fours.
+    pub(crate) responses: Vec<usize>,
+}
+
+impl Adiabatic {
+    /// Terms of the series, and rounds after the first.
+    pub(crate) fn corrections(&self) -> usize {
+        self.responses.len()
+    }
+
+    /// Cells that `update` works in, for a series of this order.
+    pub(crate) fn scratch(&self, order: usize) -> usize {
+        2 * (order + 1) * self.sources
+    }
+
+    /// Sets x to zero in all orders: the first round.
+    #[inline(always)]
+    pub(crate) fn clear<C: Copy + Default>(&self, kept: &mut [C], stride: usize) {
+        for row in kept.chunks_exact_mut(stride) {
+            row[self.out..self.out + self.count].fill(C::default());
+        }
+    }
+
+    /// x from q of the last round, known below `order`.
+    #[inline(always)]
+    pub(crate) fn update<A: Arith>(
+        &self,
+        arith: A,
+        stream: &[A::Cell],
+        kept: &mut [A::Cell],
+        stride: usize,
+        scratch: &mut [A::Cell],
+        order: usize,
+    ) {
+        let n = self.sources;
+        let damping = arith.load(&stream[self.damping]);
+        let (mut from, mut to) = scratch.split_at_mut((order + 1) * n);
+        for k in 0..order {
+            from[k * n..][..n].copy_from_slice(&kept[k * stride + self.source..][..n]);
+        }
+        self.clear(kept, stride);
+        for (round, &response) in self.responses.iter().enumerate() {
+            let known = order.saturating_sub(2 * (round + 1));
+            for k in 0..known {
+                let first = arith.mul(damping, arith.splat((k + 1) as f64));
+                let second = arith.splat(((k + 1) * (k + 2)) as f64);
+                let (a, b) = (&from[(k + 1) * n..][..n], &from[(k + 2) * n..][..n]);
+                for ((out, a), b) in to[k * n..][..n].iter_mut().zip(a).zip(b) {
+                    let sum = arith.mul(second, arith.load(b));
+                    *out = arith.store(arith.mul_add(first, arith.load(a), sum));
+                }
+                let weights = &stream[response..][..self.count * n];
+                let out = &mut kept[k * stride + self.out..][..self.count];
+                block_rows(arith, weights, &to[k * n..][..n], true, out);
+            }
+            std::mem::swap(&mut from, &mut to);
+        }
+    }
+}

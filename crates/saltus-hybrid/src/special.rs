@@ -1,0 +1,382 @@
+//! Straight-line code for programs that occur often.
+//!
+//! The interpreter of `series.rs` spends more on finding its operands than on the multiply-adds. For
+//! the shapes listed here the same program was written out as Rust by [`source`], with every index a
+//! constant and intermediate results in registers; the numbers are still the system's own. It does
+//! the same operations in the same order, so the result is the same to the bit, and a program of
+//! any other shape is interpreted.
+
+use std::fmt::Write;
+
+use crate::arith::Arith;
+use crate::compile::{Cubic, Group, Op, Place, Step, Structure};
+
+macro_rules! shapes {
+    ($($name:ident),*) => {
+        $(
+            // Written by `source`, and not by hand.
+            #[rustfmt::skip]
+            #[allow(clippy::all)]
+            mod $name;
+        )*
+
+        /// A shape that is written out.
+        #[allow(non_camel_case_types)]
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub(crate) enum Shape {
+            $(#[doc = stringify!($name)] $name),*
+        }
+
+        impl Shape {
+            /// The shape of a program, if it is one of these.
+            pub(crate) fn of(structure: &Structure) -> Option<Self> {
+                let key = key(structure);
+                $(if key == $name::KEY { return Some(Self::$name); })*
+                None
+            }
+
+            /// As the interpreter's `expand`.
+            #[inline(always)]
+            pub(crate) fn expand<A: Arith>(self, arith: A, stream: &[A::Cell], kept: &mut [A::Cell]) {
+                match self {
+                    $(Self::$name => $name::expand(arith, stream, kept)),*
+                }
+            }
+
+            /// Its source, as it is in this crate.
+            pub(crate) fn written(self) -> &'static str {
+                match self {
+                    $(Self::$name => include_str!(concat!("special/", stringify!($name), ".rs"))),*
+                }
+            }
+        }
+    };
+}
+
+shapes!(condensed_4_1, slow_manifold_4_1);
+
+/// A number that tells programs apart: 64-bit FNV-1a of all that the code depends on.
+fn key(structure: &Structure) -> u64 {
+    let text = format!(
+        "{:?}",
+        (
+            structure.states,
+            structure.slots,
+            &structure.program,
+            &structure.guard_program,
+            &structure.groups,
+            &structure.cubics,
+            &structure.terms,
+            &structure.keeps,
+            &structure.rates,
+            &structure.state_copies,
+            structure.stream.len(),
+        )
+    );
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    })
+}
+
+/// c[i] x + sum.
+#[inline(always)]
+fn term<A: Arith, const N: usize>(
+    arith: A,
+    stream: &[A::Cell; N],
+    i: usize,
+    x: A::V,
+    sum: A::V,
+) -> A::V {
+    arith.mul_add(arith.load(&stream[i]), x, sum)
+}
+
+/// As `cauchy::squares_and_products`, for W neighbours from slot Y and T on: `past` are the orders
+/// below the one in hand.
+#[inline(always)]
+fn squares_and_products<
+    A: Arith,
+    const S: usize,
+    const W: usize,
+    const Y: usize,
+    const T: usize,
+>(
+    arith: A,
+    past: &[[A::Cell; S]],
+    row: &[A::Cell; S],
+) -> ([A::V; W], [A::V; W]) {
+    let mut square = [arith.splat(0.0); W];
+    let mut product = [arith.splat(0.0); W];
+    let k = past.len();
+    if let [zero, later @ ..] = past {
+        for (i, j) in later.iter().zip(later.iter().rev()).take((k - 1) / 2) {
+            for w in 0..W {
+                let (yi, yj) = (arith.load(&i[Y + w]), arith.load(&j[Y + w]));
+                square[w] = arith.mul_add(yi, yj, square[w]);
+                product[w] = arith.mul_add(arith.load(&j[T + w]), yi, product[w]);
+                product[w] = arith.mul_add(arith.load(&i[T + w]), yj, product[w]);
+            }
+        }
+        for square in &mut square {
+            *square = arith.add(*square, *square);
+        }
+        if k.is_multiple_of(2) {
+            let middle = &past[k / 2];
+            for w in 0..W {
+                let y = arith.load(&middle[Y + w]);
+                square[w] = arith.mul_add(y, y, square[w]);
+                product[w] = arith.mul_add(arith.load(&middle[T + w]), y, product[w]);
+            }
+        }
+        for w in 0..W {
+            let (y0, yk) = (arith.load(&zero[Y + w]), arith.load(&row[Y + w]));
+            square[w] = arith.mul_add(arith.add(y0, y0), yk, square[w]);
+            product[w] = arith.mul_add(arith.load(&zero[T + w]), yk, product[w]);
+        }
+    } else {
+        for w in 0..W {
+            let y = arith.load(&row[Y + w]);
+            square[w] = arith.mul(y, y);
+        }
+    }
+    (square, product)
+}
+
+/// The straight-line code of a program; `None` if it has an operation that is not written out.
+pub(crate) fn source(structure: &Structure) -> Option<String> {
+    let mut out = String::new();
+    Writer {
+        structure,
+        out: &mut out,
+    }
+    .file()
+    .ok()?;
+    Some(out)
+}
+
+struct Writer<'a> {
+    structure: &'a Structure,
+    out: &'a mut String,
+}
+
+impl Writer<'_> {
+    fn file(&mut self) -> std::fmt::Result {
+        let s = self.structure;
+        let (slots, stream) = (s.slots, s.stream.len());
+        write!(
+            self.out,
+            "\
+//! Written by `cargo run --release -p saltus --example specialise`; not to be edited.
+
+use super::{{squares_and_products, term}};
+use crate::arith::Arith;
+
+pub(super) const KEY: u64 = {:#018x};
+const SLOTS: usize = {slots};
+const STREAM: usize = {stream};
+
+#[inline(always)]
+pub(super) fn expand<A: Arith>(a: A, c: &[A::Cell], kept: &mut [A::Cell]) {{
+    let Some(c) = c.first_chunk::<STREAM>() else {{ return }};
+    let rows = kept.as_chunks_mut::<SLOTS>().0;
+    let Some((first, rest)) = rows.split_first_mut() else {{ return }};
+    let Some(next) = rest.first_mut() else {{ return }};
+",
+            key(s)
+        )?;
+        for &(state, slot) in &s.state_copies {
+            writeln!(
+                self.out,
+                "    first[{slot}] = first[{}];",
+                s.state_slots[state]
+            )?;
+        }
+        self.out.push_str(
+            "\
+    order::<A, true>(a, c, &[], first, next, a.splat(1.0));
+    let last = rows.len() - 1;
+    for k in 1..last {
+        let (past, rest) = rows.split_at_mut(k);
+        let [row, next, ..] = rest else { return };
+        order::<A, false>(a, c, past, row, next, a.splat(1.0 / (k + 1) as f64));
+    }
+    let (past, rest) = rows.split_at_mut(last);
+    if let [row] = rest { guards(a, c, past, row) }
+}
+
+#[inline(always)]
+fn order<A: Arith, const FIRST: bool>(
+    a: A,
+    c: &[A::Cell; STREAM],
+    past: &[[A::Cell; SLOTS]],
+    row: &mut [A::Cell; SLOTS],
+    next: &mut [A::Cell; SLOTS],
+    factor: A::V,
+) {
+    let z = a.splat(0.0);
+",
+        );
+        self.program(&s.program, "if FIRST { a.load(&c[{}]) } else { z }")?;
+        for (state, rate) in s.rates.iter().enumerate() {
+            let node = rate.node;
+            writeln!(
+                self.out,
+                "    let m{state} = a.mul(n{node}, factor);\n    next[{}] = a.store(m{state});",
+                rate.slot
+            )?;
+        }
+        for (state, slot) in &s.state_copies {
+            writeln!(self.out, "    next[{slot}] = a.store(m{state});")?;
+        }
+        self.out.push_str(
+            "\
+}
+
+#[inline(always)]
+fn guards<A: Arith>(
+    a: A,
+    c: &[A::Cell; STREAM],
+    past: &[[A::Cell; SLOTS]],
+    row: &mut [A::Cell; SLOTS],
+) {
+    let (z, _) = (a.splat(0.0), past);
+",
+        );
+        self.program(&s.guard_program, "z")?;
+        self.out.push_str("}\n");
+        Ok(())
+    }
+
+    fn program(&mut self, program: &[Step], constant: &str) -> std::fmt::Result {
+        let s = self.structure;
+        for (state, slot) in s.state_slots.iter().enumerate() {
+            writeln!(self.out, "    let n{state} = a.load(&row[{slot}]);")?;
+        }
+        for step in program {
+            match &step.op {
+                Op::Linear { groups } => {
+                    for group in &s.groups[groups.0..groups.1] {
+                        self.group(group, constant)?;
+                    }
+                }
+                Op::Recall { out, slot, count } => {
+                    for i in 0..*count {
+                        writeln!(
+                            self.out,
+                            "    let n{} = a.load(&row[{}]);",
+                            out + i,
+                            slot + i
+                        )?;
+                    }
+                }
+                Op::Cubic(index) => self.cubic(&s.cubics[*index])?,
+                Op::Matrix { .. } | Op::Squares { .. } | Op::Products { .. } => {
+                    return Err(std::fmt::Error);
+                }
+            }
+            for (node, slot) in &s.keeps[step.keeps.0..step.keeps.1] {
+                writeln!(self.out, "    row[{slot}] = a.store(n{node});")?;
+            }
+        }
+        Ok(())
+    }
+
+    fn group(&mut self, group: &Group, constant: &str) -> std::fmt::Result {
+        let s = self.structure;
+        for w in 0..group.width {
+            let mut sum = constant.replace("{}", &(group.weights + w).to_string());
+            for t in 0..group.terms {
+                let weight = group.weights + group.width * (t + 1) + w;
+                let node = s.terms[group.nodes + group.width * t + w];
+                sum = format!("term(a, c, {weight}, n{node}, {sum})");
+            }
+            match group.out {
+                Place::Now(node) => writeln!(self.out, "    let n{} = {sum};", node + w)?,
+                Place::Kept(slot) => writeln!(self.out, "    row[{}] = a.store({sum});", slot + w)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn cubic(&mut self, cubic: &Cubic) -> std::fmt::Result {
+        let Cubic {
+            out,
+            count,
+            y,
+            t,
+            heads,
+            ..
+        } = *cubic;
+        let blocks = count.div_ceil(8);
+        let mut at = 0;
+        for block in 0..blocks {
+            let width = (count - at) / (blocks - block);
+            writeln!(
+                self.out,
+                "    let (q{at}, p{at}) = squares_and_products::<A, SLOTS, {width}, {}, {}>(a, past, row);",
+                y + at,
+                t + at
+            )?;
+            for w in 0..width {
+                let (q, p) = (out + at + w, out + count + at + w);
+                writeln!(self.out, "    let (n{q}, p{p}) = (q{at}[{w}], p{at}[{w}]);")?;
+            }
+            at += width;
+        }
+        self.rows(cubic, 0, heads, count, cubic.weights)?;
+        self.rows(cubic, heads, count, heads, cubic.weights + heads * count)?;
+        for (row, column, weight) in &cubic.extra {
+            let q = out + column;
+            writeln!(
+                self.out,
+                "    let t{row} = term(a, c, {weight}, n{q}, t{row});"
+            )?;
+        }
+        for i in 0..count {
+            let p = out + count + i;
+            writeln!(self.out, "    row[{}] = a.store(t{i});", t + i)?;
+            writeln!(
+                self.out,
+                "    let y{i} = match past {{ [first, ..] => a.load(&first[{0}]), [] => a.load(&row[{0}]) }};",
+                y + i
+            )?;
+            writeln!(self.out, "    let n{p} = a.mul_add(t{i}, y{i}, p{p});")?;
+        }
+        Ok(())
+    }
+
+    /// Rows of t = A q + added, each in two sums as the interpreter does it.
+    fn rows(
+        &mut self,
+        cubic: &Cubic,
+        from: usize,
+        to: usize,
+        columns: usize,
+        weights: usize,
+    ) -> std::fmt::Result {
+        for row in from..to {
+            let block = (row - from) / 4 * 4;
+            let width = (to - from - block).min(4);
+            let weight =
+                |column: usize| weights + block * columns + column * width + (row - from - block);
+            let start = cubic
+                .added
+                .map_or("z".to_owned(), |first| format!("n{}", first + row));
+            let (mut even, mut odd) = (start, "z".to_owned());
+            for column in 0..columns {
+                let last_alone = columns % 2 == 1 && column == columns - 1;
+                let sum = if column % 2 == 0 || last_alone {
+                    &mut even
+                } else {
+                    &mut odd
+                };
+                *sum = format!(
+                    "term(a, c, {}, n{}, {sum})",
+                    weight(column),
+                    cubic.out + column
+                );
+            }
+            writeln!(self.out, "    let t{row} = a.add({even}, {odd});")?;
+        }
+        Ok(())
+    }
+}
