@@ -32,6 +32,12 @@ pub(crate) enum Command {
     /// Long-term motion while one parameter changes
     #[command(after_help = help::SWEEP)]
     Sweep(WorkArgs),
+    /// Long-term motion at each point of a plane of two parameters
+    #[command(after_help = help::MAP)]
+    Map(PlaneArgs),
+    /// Which long-term motion each first state leads to
+    #[command(after_help = help::BASINS)]
+    Basins(PlaneArgs),
 }
 
 /// The study a command works on.
@@ -115,6 +121,16 @@ pub(crate) struct WorkArgs {
     pub(crate) output: OutputArgs,
     #[command(flatten)]
     pub(crate) threads: ThreadArgs,
+}
+
+/// What a command takes that computes pixel by pixel.
+#[derive(Debug, Args)]
+pub(crate) struct PlaneArgs {
+    #[command(flatten)]
+    pub(crate) work: WorkArgs,
+    /// Go on with an interrupted run of the same command; starts anew if there is none
+    #[arg(long, requires = "out")]
+    pub(crate) resume: bool,
 }
 
 #[derive(Debug, Args)]

@@ -77,6 +77,23 @@ pub(crate) enum Failure {
     /// Ctrl-C.
     #[error("interrupted; nothing was written")]
     Interrupted,
+    /// Ctrl-C during work that can go on later.
+    #[error("interrupted; what is finished is kept in `{}`", folder.display())]
+    Suspended {
+        /// The work folder.
+        folder: PathBuf,
+    },
+    /// A work folder that is in the way.
+    #[error("{message}")]
+    Work {
+        /// What is wrong with it.
+        message: String,
+        /// What to do.
+        help: &'static str,
+    },
+    /// All parts of a long computation failed; the reason is that of the first.
+    #[error(transparent)]
+    Lost(Box<Failure>),
 }
 
 impl Failure {
@@ -110,13 +127,22 @@ impl Failure {
         }
     }
 
+    /// A work folder that is in the way.
+    pub(crate) fn work(message: impl fmt::Display, help: &'static str) -> Self {
+        Self::Work {
+            message: message.to_string(),
+            help,
+        }
+    }
+
     fn code(&self) -> u8 {
         match self {
+            Self::Lost(reason) => reason.code(),
             Self::Study(error) if error.kind() == StudyErrorKind::Unreadable => 3,
             Self::Computation { .. } | Self::Results(ResultsError::Png { .. }) => 1,
             Self::Usage | Self::Study(_) | Self::Refused { .. } => 2,
-            Self::Write { .. } | Self::Results(_) => 3,
-            Self::Interrupted => 130,
+            Self::Write { .. } | Self::Work { .. } | Self::Results(_) => 3,
+            Self::Interrupted | Self::Suspended { .. } => 130,
             Self::ClosedPipe => 141,
         }
     }
@@ -157,6 +183,11 @@ impl Diagnostic for Failure {
             | Self::Refused {
                 help: Some(help), ..
             } => Some(Box::new(help)),
+            Self::Work { help, .. } => Some(Box::new(help)),
+            Self::Suspended { .. } => {
+                Some(Box::new("the same command with --resume goes on with it"))
+            }
+            Self::Lost(reason) => reason.help(),
             _ => None,
         }
     }
@@ -212,7 +243,10 @@ mod tests {
             Failure::computation("x"),
             Failure::refused("x", "y"),
             Failure::write("x", &std::io::Error::other("y")),
+            Failure::work("x", "y"),
             Failure::Interrupted,
+            Failure::Suspended { folder: "x".into() },
+            Failure::Lost(Box::new(Failure::refused("x", "y"))),
             Failure::ClosedPipe,
         ] {
             assert!(

@@ -3,7 +3,7 @@
 use crate::exit::Failure;
 use crate::{interrupt, output};
 use saltus_config::Study;
-use saltus_results::{CsvTable, Figure, ResultFolder, ResultsError, Value};
+use saltus_results::{CsvTable, Dataset, Figure, ResultFolder, ResultsError, Value};
 use serde::Serialize;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -62,6 +62,13 @@ impl Folder {
         self.inner.write(&format!("{name}.svg"), figure.svg())?;
         let png = figure.png(PNG_SCALE)?;
         Ok(self.inner.write(&format!("{name}.png"), png)?)
+    }
+
+    /// Adds a dataset as NetCDF.
+    pub(crate) fn dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), Failure> {
+        interrupt::check()?;
+        let bytes = dataset.to_bytes()?;
+        Ok(self.inner.write(name, bytes)?)
     }
 
     /// Moves everything into place.

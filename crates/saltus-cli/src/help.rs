@@ -65,11 +65,87 @@ A value that has no model, or whose run ends early, is a row that says so. Only
 if no row is completed nothing is printed or written, and the exit code is 1 (2
 if the study is to blame). Results are the same bits for any --threads.";
 
+/// Below `saltus map --help`.
+pub(crate) const MAP: &str = "\
+The study needs a [map] table with [map.x] and [map.y]; `saltus init paper`
+shows one. Each pixel runs anew from [start] until the motion has surely
+settled, or for map.transient periods; then the cycle, or map.record periods,
+is recorded. plate.inertia = \"condensed\" is some fifty times faster.
+
+Layers (map.nc, over y and x, with units; NaN where there is no motion):
+  period             of the attractor in forcing periods, 0 if not periodic
+                     with a period up to 32
+  status             0 periodic, 1 not periodic, 2 undecided (still visibly on
+                     its way to a cycle when the time was up), 3 no model,
+                     4 chattering, 5 not finite, 6 too many steps, 7 ended
+                     otherwise
+  contact_ratio      part of the time on the floor (-)
+  peak_reaction      largest plate reaction force (body weights)
+  peak_acceleration  largest absolute vertical acceleration of the floor under
+                     the first jumper, base motion included (m/s2)
+  periods_run        forcing periods computed
+  Several jumpers have contact_ratio_0, contact_ratio_1, ... of their own.
+
+JSON (--json, and map.json in --out):
+  x, y               parameter, unit, label, from, to, count
+  pixels, status     how many pixels of each status
+  periods            period, pixels and share of each period that occurs
+  contact_ratio, peak_reaction, peak_acceleration
+                     min and max over the map; a list for several jumpers
+  periods_run        forcing periods computed in all
+  first_failure      x, y, status and status_text of the first pixel without a
+                     motion; null if there is none
+  transient, record, version, study (as resolved)
+
+Folder (--out):
+  study.toml, map.json, map.nc (NetCDF: xarray.open_dataset), and the figures
+  map (periods) and layers as SVG and PNG.
+
+Finished pieces are kept beside the folder, in .NAME.saltus-pieces, until it is
+written. After an interruption (Ctrl-C, a kill, a power cut) the same command
+with --resume goes on; the results are the same bits as without interruption,
+and for any --threads.";
+
+/// Below `saltus basins --help`.
+pub(crate) const BASINS: &str = "\
+The study needs a [basins] table with [basins.x] and [basins.y], the keys
+start.z and start.v in either order; `saltus init paper` shows one. Each pixel
+is a first state of every jumper, with the plate at rest; it is run as for
+`saltus map`.
+
+Two cycles are the same attractor if they have the same period and their
+samples agree within 0.004 eta after some rotation. Motions that do not repeat
+are the same if the ranges of their samples mostly overlap, so two chaotic
+attractors may be joined. Numbers go by the share of the pixels, from 1.
+
+Layers (basins.nc): attractor (its number, 0 for none) and those of
+  `saltus map`, over y and x.
+
+JSON (--json, and basins.json in --out):
+  attractors         the most frequent first:
+    number, period   forcing periods; null if not periodic
+    pixels, share    how many pixels lead to it, and of all
+    start            x and y of the first of them
+    contact_ratio, peak_reaction, peak_acceleration
+                     as in `saltus map`
+    z, v             its samples at cos(Omega t) = 1: height z/eta and velocity
+                     z'/(eta omega_h) (-), the lowest first; a list for one
+                     jumper, a list of lists for several; empty if not periodic
+    z_range, v_range their ranges, also where it is not periodic
+  x, y, pixels, status, periods, periods_run, first_failure, transient, record,
+  version, study     as in `saltus map`
+
+Folder (--out):
+  study.toml, basins.json, basins.nc, attractors.csv (one line per attractor,
+  jumper and sample) and the figures basins and layers as SVG and PNG.
+
+--resume as in `saltus map`.";
+
 #[cfg(test)]
 mod tests {
     #[test]
     fn lines_fit_a_terminal() {
-        for line in [super::SIMULATE, super::SWEEP]
+        for line in [super::SIMULATE, super::SWEEP, super::MAP, super::BASINS]
             .iter()
             .flat_map(|h| h.lines())
         {

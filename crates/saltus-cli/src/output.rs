@@ -15,6 +15,12 @@ pub(crate) fn print_json(document: &impl Serialize) -> Result<(), Failure> {
     print_with(|stdout| stream_json(stdout, document))
 }
 
+/// Says something on standard error that is neither result nor failure.
+pub(crate) fn note(text: &str) {
+    // nobody is left to tell if standard error is closed
+    let _ = writeln!(io::stderr(), "note: {text}");
+}
+
 fn print_with(fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
     let mut stdout = BufWriter::with_capacity(1 << 16, io::stdout().lock());
     fill(&mut stdout)

@@ -10,8 +10,9 @@ use std::time::Duration;
 /// Time between two looks at the counter: smooth to the eye, nothing to the processor.
 const TICK: Duration = Duration::from_millis(100);
 
-/// Does `work` while showing how far `done` has come towards `total` pieces of `what`; silent if
-/// `quiet` or if standard error is not a terminal.
+/// Does `work` while showing how far `done` has come towards `total` pieces of `what`, and about how long
+/// the rest will take; silent if `quiet` or if standard error is not a terminal. What is done before does
+/// not count as fast.
 pub(crate) fn follow<T>(
     total: u64,
     what: &str,
@@ -22,7 +23,7 @@ pub(crate) fn follow<T>(
     if quiet || !io::stderr().is_terminal() {
         return work();
     }
-    let bar = &Cleared(bar(total, what));
+    let bar = &Cleared(bar(total, what, done.load(Ordering::Relaxed)));
     thread::scope(|scope| {
         // dropped when the work is done, also by a panic, and that ends the watch
         let (_working, watch) = mpsc::channel::<()>();
@@ -35,8 +36,11 @@ pub(crate) fn follow<T>(
     })
 }
 
-fn bar(total: u64, what: &str) -> ProgressBar {
-    let bar = ProgressBar::new(total).with_message(what.to_owned());
+fn bar(total: u64, what: &str, already: u64) -> ProgressBar {
+    let bar = ProgressBar::new(total)
+        .with_message(what.to_owned())
+        .with_position(already);
+    bar.reset_eta();
     if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}, {eta} left") {
         bar.set_style(style);
     }

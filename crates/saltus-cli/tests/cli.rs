@@ -28,6 +28,8 @@ fn help_names_commands_and_exit_codes() {
         "frequencies",
         "simulate",
         "sweep",
+        "map",
+        "basins",
         "Exit codes",
     ] {
         assert!(help.contains(word), "{word}");
@@ -47,6 +49,8 @@ fn help_names_commands_and_exit_codes() {
         "frequencies",
         "simulate",
         "sweep",
+        "map",
+        "basins",
     ] {
         saltus(&[command, "--help"])
             .assert()
@@ -65,6 +69,7 @@ fn wrong_usage_ends_with_2() {
         &["init", "other"],
         &["simulate", "x.toml", "--periods", "0"],
         &["sweep", "x.toml", "--threads", "0"],
+        &["map", "x.toml", "--resume"],
         &["check", "x.toml", "--set"],
     ] {
         saltus(args)

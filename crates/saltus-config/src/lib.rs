@@ -21,6 +21,7 @@ mod load;
 mod overrides;
 mod parameter;
 mod physics;
+mod plane;
 mod schema;
 mod source;
 mod structure;
@@ -33,8 +34,8 @@ pub use load::{load, parse, read};
 pub use parameter::Parameter;
 pub use schema::{keys, schema};
 pub use study::{
-    BaseTable, Basis, ContactTable, Direction, GravityTable, Inertia, JumperTable, Law, Method,
-    ModeLists, Modes, PlateTable, Reference, SimulateTable, SolverTable, StartTable, Study,
-    SweepTable,
+    AxisTable, BaseTable, BasinsTable, Basis, ContactTable, Direction, GravityTable, Inertia,
+    JumperTable, Law, MapTable, Method, ModeLists, Modes, PlateTable, Reference, SimulateTable,
+    SolverTable, StartTable, Study, SweepTable,
 };
 pub use template::paper_template;

@@ -70,7 +70,7 @@ impl Parameter {
         )
         .map_err(&refused)?;
         let changed = Study::deserialize(tree).map_err(|e| refused(e.message().to_owned()))?;
-        validate::refuse(validate::faults_without_sweep(&changed))?;
+        validate::refuse(validate::faults_of_system(&changed))?;
         Ok(changed)
     }
 
@@ -140,12 +140,19 @@ impl Study {
     }
 }
 
-/// Does the key hold a number of the system or its start? A sweep does not change itself.
+/// Tables that say what is asked: no question changes itself or another.
+const QUESTIONS: [&str; 3] = ["sweep", "map", "basins"];
+
+/// Does the key hold a number of the system or its start?
 fn varies(key: &Key) -> bool {
     let number = Node::root()
         .find(key.segments())
         .is_some_and(|n| n.kind() == Kind::Number);
-    number && key.segments().first().is_some_and(|table| table != "sweep")
+    number
+        && key
+            .segments()
+            .first()
+            .is_some_and(|table| !QUESTIONS.contains(&table.as_str()))
 }
 
 fn parameters() -> Vec<String> {

@@ -126,6 +126,7 @@ impl From<Inertia> for model::Inertia {
     fn from(inertia: Inertia) -> Self {
         match inertia {
             Inertia::Full => Self::Full,
+            Inertia::SlowManifold => Self::SlowManifold,
             Inertia::Condensed => Self::Condensed,
         }
     }

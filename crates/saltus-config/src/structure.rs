@@ -1,7 +1,7 @@
 //! Does a table have the keys, types and ranges of the schema? All faults are found, not only the first.
 
 use crate::error::StudyErrorKind;
-use crate::key::Key;
+use crate::key::{Key, index};
 use crate::schema::{Kind, Node, keys};
 use toml::Value;
 
@@ -225,7 +225,9 @@ fn header(table: &Key) -> String {
     let segments = table.segments();
     match Node::root().find(segments).map(Node::kind) {
         _ if segments.is_empty() => "a study".to_owned(),
-        Some(Kind::Table) if segments.len() == 2 => format!("[[{}]]", table.without_indices()),
+        Some(Kind::Table) if segments.iter().any(|s| index(s).is_some()) => {
+            format!("[[{}]]", table.without_indices())
+        }
         Some(Kind::Table) => format!("[{table}]"),
         _ => format!("{table}"),
     }

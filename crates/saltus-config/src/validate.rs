@@ -2,6 +2,7 @@
 
 use crate::error::{StudyError, StudyErrorKind};
 use crate::key::Key;
+use crate::plane;
 use crate::schema::Node;
 use crate::structure::{Fault, Point, description};
 use crate::study::{Direction, Law, Modes, Reference, Study};
@@ -55,16 +56,18 @@ pub(crate) fn refuse(faults: Vec<Fault>) -> Result<(), StudyError> {
 
 /// Everything that is wrong with the study.
 pub(crate) fn faults(study: &Study) -> Vec<Fault> {
-    let mut faults = faults_without_sweep(study);
-    // the ends of a sweep are tried on a study that is itself sound
+    let mut faults = faults_of_system(study);
+    // the ends of a sweep or a map are tried on a study that is itself sound
     if faults.is_empty() {
         sweep(study, &mut faults);
+        plane::map(study, &mut faults);
+        plane::basins(study, &mut faults);
     }
     faults
 }
 
-/// Everything that is wrong with the study, sweep aside.
-pub(crate) fn faults_without_sweep(study: &Study) -> Vec<Fault> {
+/// Everything that is wrong with the study, the questions about it aside.
+pub(crate) fn faults_of_system(study: &Study) -> Vec<Fault> {
     let mut faults = ranges(study);
     thickness(study, &mut faults);
     modes(study, &mut faults);
@@ -234,17 +237,9 @@ fn base(study: &Study, faults: &mut Vec<Fault>) {
 
 fn sweep(study: &Study, faults: &mut Vec<Fault>) {
     let Some(sweep) = &study.sweep else { return };
-    let parameter = match Parameter::parse(&sweep.parameter) {
+    let parameter = match parameter("sweep.parameter", &sweep.parameter) {
         Ok(parameter) => parameter,
-        Err(error) => {
-            let mut fault = wrong(
-                "sweep.parameter",
-                sweep.parameter.as_str(),
-                &error.to_string(),
-            );
-            fault.help = error.advice().map(str::to_owned);
-            return faults.push(fault);
-        }
+        Err(fault) => return faults.push(fault),
     };
     // without people the rest of the study is still good for the empty plate; `apply` refuses the sweep
     let nobody = study.jumper.is_empty() && sweep.parameter.starts_with("jumper.");
@@ -266,6 +261,15 @@ fn sweep(study: &Study, faults: &mut Vec<Fault>) {
     starts(sweep.direction, &sweep.starts, faults);
 }
 
+/// The parameter named by the value of key `at`.
+pub(crate) fn parameter(at: &str, name: &str) -> Result<Parameter, Fault> {
+    Parameter::parse(name).map_err(|error| {
+        let mut fault = wrong(at, name, &error.to_string());
+        fault.help = error.advice().map(str::to_owned);
+        fault
+    })
+}
+
 fn starts(direction: Direction, starts: &[[f64; 2]], faults: &mut Vec<Fault>) {
     if direction == Direction::Restarts && starts.is_empty() {
         let key = key("sweep.starts");
@@ -285,11 +289,11 @@ fn starts(direction: Direction, starts: &[[f64; 2]], faults: &mut Vec<Fault>) {
     }
 }
 
-fn key(name: &str) -> Key {
+pub(crate) fn key(name: &str) -> Key {
     Key::parse(name).unwrap_or_default()
 }
 
-fn wrong(name: &str, given: impl Into<Value>, what: &str) -> Fault {
+pub(crate) fn wrong(name: &str, given: impl Into<Value>, what: &str) -> Fault {
     Fault {
         kind: StudyErrorKind::Value,
         point: Point::Value,

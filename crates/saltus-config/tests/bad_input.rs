@@ -6,7 +6,15 @@ use saltus_config::{Study, StudyError, StudyErrorKind, keys, parse};
 /// Where zero is a legal value.
 const ZERO_IS_FINE: &[&str] = &[
     "base.amplitude",
+    "basins.transient",
+    "basins.x.from",
+    "basins.x.to",
+    "basins.y.from",
+    "basins.y.to",
     "jumper.damping_ratio",
+    "map.transient",
+    "map.x.from", // of a damping ratio
+    "map.x.to",
     "plate.damping_ratio",
     "plate.poisson_ratio",
     "simulate.transient",
@@ -18,18 +26,41 @@ const ZERO_IS_FINE: &[&str] = &[
 ];
 
 /// Where a negative value is legal.
-const NEGATIVE_IS_FINE: &[&str] = &["start.v", "start.z"];
+const NEGATIVE_IS_FINE: &[&str] = &[
+    "basins.x.from",
+    "basins.x.to",
+    "basins.y.from",
+    "basins.y.to",
+    "start.v",
+    "start.z",
+];
 
 /// What must be there; everything else has a documented default.
 const REQUIRED: &[&str] = &[
     "base.amplitude",
     "base.frequency_ratio", // or base.frequency
+    "basins.x.count",
+    "basins.x.from",
+    "basins.x.parameter",
+    "basins.x.to",
+    "basins.y.count",
+    "basins.y.from",
+    "basins.y.parameter",
+    "basins.y.to",
     "contact.law",
     "jumper.damping_ratio",
     "jumper.mass",
     "jumper.stiffness",
     "jumper.x",
     "jumper.y",
+    "map.x.count",
+    "map.x.from",
+    "map.x.parameter",
+    "map.x.to",
+    "map.y.count",
+    "map.y.from",
+    "map.y.parameter",
+    "map.y.to",
     "plate.damping_ratio",
     "plate.density",
     "plate.length",
@@ -62,7 +93,7 @@ impl Sheet {
     }
 
     fn header(&self, key: &str) -> usize {
-        let table = key.split('.').next().unwrap();
+        let table = table_of(key);
         self.lines
             .iter()
             .position(|l| *l == format!("[{table}]") || *l == format!("[[{table}]]"))
@@ -90,6 +121,11 @@ impl Sheet {
 /// The key as an error names it: the file has one jumper.
 fn named(key: &str) -> String {
     key.replace("jumper.", "jumper.0.")
+}
+
+/// The table that holds the key.
+fn table_of(key: &str) -> &str {
+    key.rsplit_once('.').unwrap().0
 }
 
 fn name_of(key: &str) -> &str {
@@ -262,7 +298,7 @@ fn every_misspelt_key_is_named_and_the_right_one_suggested() {
                 hit.advice().unwrap()
             );
 
-            let table = key.split('.').next().unwrap();
+            let table = table_of(&key);
             let set = [format!("{table}.{misspelt}=1")];
             let error = parse("study.toml", &sheet.lines.join("\n"), &set).unwrap_err();
             assert_eq!(error.kind(), StudyErrorKind::Override);
@@ -309,6 +345,29 @@ const CONTRADICTIONS: &[(&str, &str)] = &[
         "sweep.parameter=plate.modes",
         "not a key that holds a number",
     ),
+    ("map.x.to=0.1", "different from map.x.from"),
+    ("map.x.to=11", "jumper.0.damping_ratio = 11.0"),
+    ("map.y.from=-1", "base.frequency_ratio = -1.0"),
+    ("map.y.parameter=jumper.damping_ratio", "two different ones"),
+    (
+        "map.x.parameter=plate.modes",
+        "not a key that holds a number",
+    ),
+    ("map.x.parameter=start.z", "from the same [start]"),
+    (
+        "map.y.parameter=solver.tolerance",
+        "not a part of the system",
+    ),
+    (
+        "map.x.parameter=basins.x.from",
+        "not a key that holds a number",
+    ),
+    (
+        "basins.x.parameter=jumper.mass",
+        "\"start.z\" or \"start.v\"",
+    ),
+    ("basins.y.parameter=start.z", "two different ones"),
+    ("basins.y.to=1e7", "start.v = 10000000.0"),
     ("jumper=[]", "has no body frequency"),
     ("plate.modes='0x3'", "from 1 to 64"),
     ("plate.modes=9x9", "from 1 to 64"),

@@ -75,6 +75,8 @@ fn tables_with_defaults_may_be_left_out() {
         study,
         Study {
             sweep: None,
+            map: None,
+            basins: None,
             ..Study::paper()
         }
     );
@@ -88,7 +90,7 @@ fn schema_describes_every_key_with_its_unit() {
         "https://json-schema.org/draft/2020-12/schema"
     );
     let keys = keys();
-    assert_eq!(keys.len(), 37, "{keys:?}");
+    assert_eq!(keys.len(), 57, "{keys:?}");
     for key in keys {
         let node = find(&schema, &key);
         let description = node["description"].as_str().unwrap_or_default();
@@ -97,7 +99,10 @@ fn schema_describes_every_key_with_its_unit() {
             description.contains('(') && description.contains(')'),
             "{key}: {description}"
         );
-        let physical = node["type"] == "number" && !key.starts_with("sweep.");
+        let question = ["sweep.", "map.", "basins."]
+            .iter()
+            .any(|t| key.starts_with(t));
+        let physical = node["type"] == "number" && !question;
         for note in ["x-unit", "x-symbol", "x-label"] {
             assert!(!physical || node[note].is_string(), "{key} has no {note}");
         }
@@ -125,7 +130,10 @@ fn schema_lists_the_words() {
         words("contact.law"),
         ["reaction-force", "gap", "relaxing-leg"]
     );
-    assert_eq!(words("plate.inertia"), ["full", "condensed"]);
+    assert_eq!(
+        words("plate.inertia"),
+        ["full", "slow-manifold", "condensed"]
+    );
     assert_eq!(words("plate.basis"), ["fixed", "shear-free"]);
     assert_eq!(words("base.reference"), ["occupied", "free", "plate"]);
     assert_eq!(words("solver.method"), ["taylor", "rk4"]);
@@ -212,6 +220,8 @@ fn a_parameter_refuses_what_the_file_would_refuse() {
         "",
         "plate.lenght",
         "sweep.from",
+        "map.x.from",
+        "basins.y.to",
         "jumper",
         "contact.law",
     ] {

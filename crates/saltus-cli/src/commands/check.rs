@@ -46,11 +46,24 @@ fn warnings(study: &Study) -> Vec<String> {
     let alone = jumpers.iter().enumerate().filter(unmoved).map(|(i, _)| {
         format!("jumper.{i} stands on a nodal line of every mode: plate and jumper cannot feel each other")
     });
+    let plane = |name, axes: [&saltus_config::AxisTable; 2]| {
+        let mut refused = axes
+            .into_iter()
+            .filter_map(|axis| study.set(&axis.parameter, axis.from).err());
+        refused
+            .next()
+            .map(|error| format!("[{name}] cannot run: {error}"))
+    };
+    let map = study.map.iter().filter_map(|t| plane("map", [&t.x, &t.y]));
+    let basins = study
+        .basins
+        .iter()
+        .filter_map(|t| plane("basins", [&t.x, &t.y]));
     let sweep = study.sweep.iter().filter_map(|sweep| {
         let refused = study.set(&sweep.parameter, sweep.from).err()?;
         Some(format!("[sweep] cannot run: {refused}"))
     });
-    alone.chain(sweep).collect()
+    alone.chain(sweep).chain(map).chain(basins).collect()
 }
 
 fn summary(file: &str, study: &Study, warnings: &[String]) -> Result<String, Failure> {
@@ -92,6 +105,23 @@ fn summary(file: &str, study: &Study, warnings: &[String]) -> Result<String, Fai
             sweep.parameter, sweep.from, sweep.to, sweep.count
         );
         line("sweep", what);
+    }
+    let plane = |x: &saltus_config::AxisTable, y: &saltus_config::AxisTable| {
+        let axis =
+            |a: &saltus_config::AxisTable| format!("{} from {} to {}", a.parameter, a.from, a.to);
+        format!(
+            "{} by {}, {} x {} pixels",
+            axis(x),
+            axis(y),
+            x.count,
+            y.count
+        )
+    };
+    if let Some(map) = &study.map {
+        line("map", plane(&map.x, &map.y));
+    }
+    if let Some(basins) = &study.basins {
+        line("basins", plane(&basins.x, &basins.y));
     }
     for warning in warnings {
         line("warning", warning.clone());

@@ -1,8 +1,11 @@
 //! One file per command.
 
+mod basins;
 mod check;
 mod frequencies;
 mod init;
+mod map;
+mod plane;
 mod repeats;
 mod reproduce;
 mod schema;
@@ -29,6 +32,8 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::Frequencies(args) => frequencies::run(&args),
         Command::Simulate(args) => simulate::run(&args),
         Command::Sweep(args) => sweep::run(&args),
+        Command::Map(args) => map::run(&args),
+        Command::Basins(args) => basins::run(&args),
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod base;
 mod jumper;
+mod map;
 mod modes;
 mod plate;
 mod run;
@@ -9,6 +10,7 @@ mod sweep;
 
 pub use base::{BaseTable, GravityTable, Reference};
 pub use jumper::{ContactTable, JumperTable, Law, StartTable};
+pub use map::{AxisTable, BasinsTable, MapTable};
 pub use modes::{ModeLists, Modes};
 pub use plate::{Basis, Inertia, PlateTable};
 pub use run::{Method, SimulateTable, SolverTable};
@@ -56,11 +58,21 @@ pub struct Study {
     #[schemars(with = "SweepTable")]
     #[garde(dive)]
     pub sweep: Option<SweepTable>,
+    /// What `saltus map` runs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "MapTable")]
+    #[garde(dive)]
+    pub map: Option<MapTable>,
+    /// What `saltus basins` runs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "BasinsTable")]
+    #[garde(dive)]
+    pub basins: Option<BasinsTable>,
 }
 
 impl Study {
     /// The case of DP section 3 with ζ_h = 0.3 and Ω equal to the body's frequency on the flexible
-    /// plate, and the sweep of DP Fig. 2b. [`paper_template`](crate::paper_template) explains it.
+    /// plate, the sweep of DP Fig. 2b, a map and basins. [`paper_template`](crate::paper_template) explains it.
     pub fn paper() -> Self {
         Self {
             plate: PlateTable::paper(),
@@ -74,6 +86,8 @@ impl Study {
             start: StartTable::default(),
             simulate: SimulateTable::default(),
             sweep: Some(SweepTable::paper()),
+            map: Some(MapTable::paper()),
+            basins: Some(BasinsTable::paper()),
         }
     }
 

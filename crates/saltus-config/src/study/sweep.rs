@@ -65,14 +65,19 @@ impl SweepTable {
 
     /// The values in ascending order of index, `from` first and `to` last, both exact.
     pub fn values(&self) -> Vec<f64> {
-        let last = self.count.saturating_sub(1);
-        let at = |i: u32| match i {
-            0 => self.from,
-            i if i == last => self.to,
-            i => self.from + (self.to - self.from) * f64::from(i) / f64::from(last),
-        };
-        (0..self.count).map(at).collect()
+        linear(self.from, self.to, self.count)
     }
+}
+
+/// Equally spaced values, both ends exact.
+pub(super) fn linear(from: f64, to: f64, count: u32) -> Vec<f64> {
+    let last = count.saturating_sub(1);
+    let at = |i: u32| match i {
+        0 => from,
+        i if i == last => to,
+        i => from + (to - from) * f64::from(i) / f64::from(last),
+    };
+    (0..count).map(at).collect()
 }
 
 /// How the state goes from one value to the next.

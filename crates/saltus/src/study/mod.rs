@@ -1,16 +1,25 @@
 //! Questions asked of models.
 
+mod attractor;
+mod basins;
+mod classify;
 mod ensemble;
 mod exponent;
+mod map;
 pub mod paper;
+mod peaks;
 mod recurrence;
 mod settle;
 mod sweep;
 mod trajectory;
 
+pub use attractor::{Attractor, Found, Kind, Lost, Range, Search, attractors};
+pub use basins::{Catalogue, Entry, SAME};
+pub use classify::MAX_PERIOD;
 pub(crate) use ensemble::in_parallel;
 pub use ensemble::{Control, StudyError};
 pub use exponent::{Exponent, largest_exponents};
+pub use map::{Grid, map};
 pub use recurrence::recurrence;
 pub use settle::{Settled, settle};
 pub use sweep::{Pass, Sweep, SweepRow, sweep, sweep_many};

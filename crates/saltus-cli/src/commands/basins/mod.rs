@@ -1,0 +1,139 @@
+//! `saltus basins`: which long-term motion each first state leads to.
+
+mod figures;
+mod report;
+mod summary;
+mod tables;
+
+use super::plane::{self, Cell, Gather, Layers, Plane};
+use crate::args::PlaneArgs;
+use crate::exit::Failure;
+use crate::folder::Folder;
+use report::Report;
+use saltus::study::{Catalogue, Entry};
+use saltus_config::Study;
+use saltus_results::Variable;
+
+/// Shown to those whose study has none.
+const EXAMPLE: &str = "\
+add a table that says which first states, such as
+
+  [basins.x]
+  parameter = \"start.z\"
+  from = -2.0
+  to = 6.0
+  count = 64
+
+  [basins.y]
+  parameter = \"start.v\"
+  from = -4.0
+  to = 4.0
+  count = 64";
+
+/// What was found.
+struct Basins {
+    layers: Layers,
+    /// The most frequent first.
+    attractors: Vec<Entry>,
+    /// Its number from 1; 0 for none.
+    attractor: Vec<u16>,
+}
+
+/// What is being found, pixel by pixel.
+struct Finding {
+    layers: Layers,
+    catalogue: Catalogue,
+    /// In the order of discovery.
+    number: Vec<Option<usize>>,
+}
+
+pub(super) fn run(args: &PlaneArgs) -> Result<(), Failure> {
+    let study = super::load(&args.work.study, &[])?;
+    let plane = question(&study)?;
+    let control = super::control(&study, &args.work.threads);
+    let model = study.setup().model()?;
+    model.check_step(&control.options)?;
+    let swapped = plane.x.parameter.key() == "start.v";
+    let start_at = |pixel| {
+        let (x, y) = plane.grid.at(pixel);
+        let (z, v) = if swapped { (y, x) } else { (x, y) };
+        Ok((model.clone(), model.start(z, v)))
+    };
+    let finding = Finding {
+        layers: Layers::new(study.jumper.len()),
+        catalogue: Catalogue::default(),
+        number: Vec::new(),
+    };
+    let write = |finding: Finding, folder| write(&study, &plane, finding.ranked(), folder);
+    let report = plane::run(
+        args,
+        ("basins", &study, &plane),
+        &control,
+        start_at,
+        finding,
+        write,
+    )?;
+    super::tell(&args.work.output, &report, || {
+        summary::text(&plane, &report)
+    })
+}
+
+/// What is asked, or what is missing in the question.
+fn question(study: &Study) -> Result<Plane, Failure> {
+    let table = study
+        .basins
+        .as_ref()
+        .ok_or_else(|| Failure::refused("the study has no [basins] table", EXAMPLE))?;
+    plane::need_people(study, "a map of basins")?;
+    Plane::new(&table.x, &table.y, table.transient, table.record)
+}
+
+impl Gather for Finding {
+    fn cell(&mut self, pixel: usize, cell: Cell) {
+        self.layers.push(&cell);
+        let motion = cell.attractor.ok();
+        let number = motion.and_then(|motion| self.catalogue.file(pixel, motion));
+        self.number.push(number);
+    }
+}
+
+impl Finding {
+    fn ranked(self) -> Basins {
+        let (attractors, rank) = self.catalogue.ranked();
+        let place = |number: Option<usize>| {
+            number.map_or(0, |number| {
+                u16::try_from(rank[number] + 1).unwrap_or(u16::MAX)
+            })
+        };
+        Basins {
+            layers: self.layers,
+            attractors,
+            attractor: self.number.into_iter().map(place).collect(),
+        }
+    }
+}
+
+fn write<'a>(
+    study: &'a Study,
+    plane: &Plane,
+    basins: Basins,
+    folder: Option<Folder>,
+) -> Result<Report<'a>, Failure> {
+    basins.layers.refuse_if_all_lost()?;
+    let report = Report::new(study, plane, &basins);
+    if let Some(mut folder) = folder {
+        folder.json("basins.json", &report)?;
+        tables::write(&mut folder, study, &report)?;
+        folder.figure("basins", &figures::basins(plane, &basins))?;
+        folder.figure("layers", &plane::layers_figure(plane, &basins.layers))?;
+        let title = "Basins of attraction of a jumper on a plate";
+        let over = [plane.y.variable(), plane.x.variable()];
+        let attractor = Variable::new("attractor", &[&over[0], &over[1]], basins.attractor)
+            .long_name("Number of the attractor in the table attractors, 0 for none")
+            .units("1");
+        let dataset = plane::dataset(title, study, plane, basins.layers).variable(attractor);
+        folder.dataset("basins.nc", dataset)?;
+        folder.commit()?;
+    }
+    Ok(report)
+}

@@ -1,0 +1,50 @@
+//! The figures of a map.
+
+use super::super::plane::{Layers, Plane, Status};
+use saltus_results::{Class, ClassMap, Colour, Figure};
+
+/// Periods with a colour of their own: doublings first, as they are the most frequent.
+const PERIODS: [u16; 10] = [1, 2, 4, 8, 3, 6, 5, 7, 16, 12];
+
+/// The periods, and what is not periodic.
+pub(super) fn periods(plane: &Plane, layers: &Layers) -> Figure {
+    let mut order: Vec<usize> = (0..PERIODS.len()).collect();
+    order.sort_by_key(|&i| PERIODS[i]);
+    let own = order.iter().map(|&i| {
+        let n = PERIODS[i];
+        let label = match n {
+            1 => "Every forcing period".to_owned(),
+            n => format!("Every {n} periods"),
+        };
+        Class::new(label, Colour::SERIES[i])
+    });
+    let others = [
+        Class::new("Another period up to 32", Colour::OTHER),
+        Class::new("Not periodic", Colour::IRREGULAR),
+        Class::new("Undecided", Colour::UNDECIDED),
+        Class::new("Failed", Colour::FAILED),
+    ];
+    let other = PERIODS.len() as u8;
+    let class = |(&status, &period): (&Status, &u16)| match status {
+        Status::Periodic => order
+            .iter()
+            .position(|&i| PERIODS[i] == period)
+            .map_or(other, |place| place as u8),
+        Status::NotPeriodic => other + 1,
+        Status::Undecided => other + 2,
+        _ => other + 3,
+    };
+    let cells: Vec<u8> = layers
+        .status
+        .iter()
+        .zip(&layers.period)
+        .map(class)
+        .collect();
+    let map = ClassMap::new(
+        "The motion repeats",
+        plane.figure_grid(),
+        cells,
+        own.chain(others),
+    );
+    Figure::new(map.shares())
+}

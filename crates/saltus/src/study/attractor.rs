@@ -1,0 +1,433 @@
+//! Which attractor does a start lead to? One answer per start, for maps of parameters and of starts.
+//!
+//! A start is run until it is surely on a cycle (see `classify`), or for the whole transient; then
+//! the cycle once, or the recording, with dense output for peaks. Starts are independent of each other to
+//! the bit: so any part of a map can be computed at any time, by any number of threads.
+
+use std::sync::OnceLock;
+
+use saltus_hybrid::integrate_stream;
+use saltus_hybrid::{End, IntegrateError, Leg, Point, Sample, Status, Step, System, Task};
+
+use super::classify::{Closeness, OnCycle, Samples, Settling};
+use super::peaks::Peaks;
+use super::{Control, StudyError};
+use crate::model::{Contact, Model, ModelError, Probe};
+
+/// How long to look.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Search {
+    /// Forcing periods, at most, before anything is recorded.
+    pub transient: u64,
+    /// Periods recorded of a motion that has not surely settled before.
+    pub record: u64,
+    /// Whether the transient ends as soon as the motion has surely settled. The answer is the same within
+    /// 1e-6 eta; without it each start takes all its periods.
+    pub early_stop: bool,
+}
+
+impl Default for Search {
+    /// 400 periods: the paper's plate modes lose a tenth of their amplitude per period. 64 recorded show
+    /// each period up to 32 twice.
+    fn default() -> Self {
+        Self {
+            transient: 400,
+            record: 64,
+            early_stop: true,
+        }
+    }
+}
+
+/// What a start leads to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// The long-term motion, or why there is none.
+    pub attractor: Result<Attractor, Lost>,
+    /// Forcing periods run in all.
+    pub periods: u64,
+}
+
+/// Why there is no long-term motion.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Lost {
+    /// There is no model at this place.
+    NoModel(ModelError),
+    /// The run ended early; never [`Status::Completed`].
+    Ended(Status),
+}
+
+/// What kind of motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Kind {
+    /// A cycle of so many forcing periods, at most 32.
+    Periodic(u32),
+    /// No cycle of at most 32 periods: chaos, a torus, a longer cycle.
+    NotPeriodic,
+    /// Still visibly on its way to a cycle, or away from an unstable one, when the time was up.
+    Undecided,
+}
+
+/// Smallest and largest value.
+pub type Range = [f64; 2];
+
+/// A long-term motion, and what it does to floor and people.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attractor {
+    /// What it is.
+    pub kind: Kind,
+    /// Part of the time on the floor, of each body.
+    pub contact_ratio: Vec<f64>,
+    /// Largest plate reaction force on each body, in units of its weight.
+    pub peak_reaction: Vec<f64>,
+    /// Largest absolute vertical acceleration of the floor under the first body, base motion
+    /// included (m/s^2); 0 without people.
+    pub peak_acceleration: f64,
+    /// Section of a cycle, z/eta body by body: `z[body][sample]`. No samples if not periodic.
+    pub z: Vec<Vec<f64>>,
+    /// z'/(eta omega_h) likewise.
+    pub v: Vec<Vec<f64>>,
+    /// Ranges of z and v of each body at the recorded samples.
+    pub ranges: Vec<(Range, Range)>,
+    /// What may be left of the transient (eta); 0 if not periodic.
+    pub rest: f64,
+}
+
+/// The attractor that each of the `starts` leads to, into `sink`, in no particular order.
+///
+/// `start_at` makes model and start of a number; it is called when the start's turn comes, by several
+/// threads at once, and nothing is kept after `sink` has seen the answer. A place without a model, or a
+/// run that ends early, is an answer too.
+///
+/// # Errors
+/// [`StudyError::Integrate`] for options out of range or when stopped, and whatever `sink` refuses with.
+pub fn attractors<F, E>(
+    starts: impl IntoIterator<Item = usize, IntoIter: Send>,
+    start_at: F,
+    search: &Search,
+    control: &Control,
+    mut sink: impl FnMut(usize, Found) -> Result<(), E> + Send,
+) -> Result<(), E>
+where
+    F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
+    E: From<StudyError> + Send,
+{
+    let mut later = round(starts.into_iter(), &start_at, search, control, &mut sink)?;
+    // Systems of another structure cannot share lanes with the first ones, but with each other.
+    while !later.is_empty() {
+        later.sort_unstable();
+        later = round(later.into_iter(), &start_at, search, control, &mut sink)?;
+    }
+    Ok(())
+}
+
+/// An error of the engine or of the sink.
+enum Refused<E> {
+    Engine(IntegrateError),
+    Sink(E),
+}
+
+impl<E> From<IntegrateError> for Refused<E> {
+    fn from(error: IntegrateError) -> Self {
+        Self::Engine(error)
+    }
+}
+
+/// Runs all starts whose systems share the structure of the first; gives back the others.
+fn round<F, E>(
+    starts: impl Iterator<Item = usize> + Send,
+    start_at: &F,
+    search: &Search,
+    control: &Control,
+    sink: &mut (impl FnMut(usize, Found) -> Result<(), E> + Send),
+) -> Result<Vec<usize>, E>
+where
+    F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
+    E: From<StudyError> + Send,
+{
+    let structure = OnceLock::new();
+    let mut later = Vec::new();
+    let tasks = starts.map(|number| Pursuit {
+        number,
+        start_at,
+        search,
+        control,
+        structure: &structure,
+        found: None,
+        motion: None,
+    });
+    let take = |task: Pursuit<'_, F>| match task.found {
+        Some(found) => sink(task.number, found).map_err(Refused::Sink),
+        None => {
+            later.push(task.number);
+            Ok(())
+        }
+    };
+    integrate_stream(
+        &control.options,
+        tasks,
+        control.threads,
+        &control.stop,
+        take,
+    )
+    .map_err(|refused| match refused {
+        Refused::Engine(error) => StudyError::from(error).into(),
+        Refused::Sink(error) => error,
+    })?;
+    Ok(later)
+}
+
+/// One start on its way to its attractor.
+struct Pursuit<'a, F> {
+    number: usize,
+    start_at: &'a F,
+    search: &'a Search,
+    control: &'a Control,
+    structure: &'a OnceLock<System>,
+    found: Option<Found>,
+    /// Made when its turn comes, gone when it has ended.
+    motion: Option<Motion>,
+}
+
+/// What is kept of a motion while it runs.
+struct Motion {
+    model: Model,
+    samples: Samples,
+    /// Period of the cycle on which the motion settled before the end of the transient, and what was left.
+    settled: Option<OnCycle>,
+    recording: Option<Recording>,
+    periods: u64,
+}
+
+/// What is kept while recording, period by period.
+struct Recording {
+    probe: Probe,
+    peaks: Peaks,
+    /// Time of each body on the floor.
+    stance: Vec<Vec<f64>>,
+    /// Largest floor acceleration, and reaction of each body.
+    tops: Vec<Vec<f64>>,
+    /// Of z and v of each body at the samples.
+    ranges: Vec<(Range, Range)>,
+}
+
+/// Samples between two looks whether the motion has settled.
+const LOOK: usize = 8;
+
+impl<F> Task for Pursuit<'_, F>
+where
+    F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
+{
+    fn begin(&mut self) -> Option<Leg> {
+        let (mut model, start) = match (self.start_at)(self.number) {
+            Ok(ready) => ready,
+            Err(error) => {
+                self.found = Some(Found {
+                    attractor: Err(Lost::NoModel(error)),
+                    periods: 0,
+                });
+                return None;
+            }
+        };
+        let first = self.structure.get_or_init(|| model.system().clone());
+        if !model.share_system(first) {
+            return None;
+        }
+        let system = model.system().clone();
+        self.motion = Some(Motion {
+            samples: Samples::new(width(&model)),
+            model,
+            settled: None,
+            recording: None,
+            periods: 0,
+        });
+        Some(Leg {
+            system,
+            start,
+            periods: self.search.transient,
+        })
+    }
+
+    fn sample(&mut self, sample: &Sample<'_>) -> bool {
+        self.control.count_period();
+        let Some(motion) = &mut self.motion else {
+            return false;
+        };
+        let model = &motion.model;
+        motion.samples.push(|row| coordinates(model, sample.x, row));
+        if let Some(recording) = &mut motion.recording {
+            recording.end_period(model, sample);
+            return true;
+        }
+        if self.search.early_stop && motion.samples.count().is_multiple_of(LOOK) {
+            motion.settled = motion.samples.settled(Closeness::TIGHT);
+        }
+        motion.settled.is_none()
+    }
+
+    fn wants_steps(&self) -> bool {
+        let recording = |motion: &Motion| motion.recording.is_some();
+        self.motion.as_ref().is_some_and(recording)
+    }
+
+    fn step(&mut self, step: &Step<'_>) {
+        let recording = self.motion.as_mut().and_then(|m| m.recording.as_mut());
+        if let Some(recording) = recording {
+            recording.step(step);
+        }
+    }
+
+    fn end(&mut self, end: End) -> Option<Leg> {
+        let motion = self.motion.as_mut()?;
+        motion.periods += end.periods;
+        if end.status != Status::Completed {
+            self.found = Some(Found {
+                attractor: Err(Lost::Ended(end.status)),
+                periods: motion.periods,
+            });
+        } else if let Some(recording) = motion.recording.take() {
+            self.found = Some(Found {
+                attractor: Ok(motion.attractor(&recording)),
+                periods: motion.periods,
+            });
+        } else {
+            motion.recording = Some(Recording::new(&motion.model));
+            let whole = self.search.record;
+            let periods = motion.settled.map_or(whole, |found| found.period.into());
+            return Some(Leg {
+                system: motion.model.system().clone(),
+                start: end.point,
+                periods,
+            });
+        }
+        self.motion = None;
+        None
+    }
+}
+
+impl Recording {
+    fn new(model: &Model) -> Self {
+        let bodies = model.setup().jumpers.len();
+        Self {
+            probe: model.probe(),
+            peaks: Peaks::new(1 + bodies, model.system().state_len()),
+            stance: Vec::new(),
+            tops: Vec::new(),
+            ranges: vec![(NOTHING, NOTHING); bodies],
+        }
+    }
+
+    fn step(&mut self, step: &Step<'_>) {
+        let probe = &mut self.probe;
+        self.peaks.step(step, |x, out| {
+            let reading = probe.read(step.modes, x);
+            out[0] = reading.floor.first().map_or(0.0, |a| a.abs());
+            out[1..].copy_from_slice(reading.reaction);
+        });
+    }
+
+    fn end_period(&mut self, model: &Model, sample: &Sample<'_>) {
+        for (body, (z, v)) in self.ranges.iter_mut().enumerate() {
+            *z = widened(*z, model.z(body, sample.x));
+            *v = widened(*v, model.v(body, sample.x));
+        }
+        let on_floor = |&(mode, _): &(usize, &f64)| Contact::of(mode) == Contact::Stance;
+        let stance = |dwell: &Vec<f64>| -> f64 {
+            let times = dwell.iter().enumerate().filter(on_floor);
+            times.map(|(_, time)| time).sum()
+        };
+        self.stance.push(sample.dwell.iter().map(stance).collect());
+        self.tops.push(self.peaks.largest.clone());
+        self.peaks.clear();
+    }
+}
+
+impl Motion {
+    /// What the whole motion says.
+    fn attractor(&self, recording: &Recording) -> Attractor {
+        let settling = self
+            .settled
+            .map_or_else(|| self.samples.judge(), Settling::Settled);
+        let (kind, rest) = match settling {
+            Settling::Settled(found) => (Kind::Periodic(found.period), found.rest),
+            Settling::Drifting => (Kind::Undecided, 0.0),
+            Settling::Open => (Kind::NotPeriodic, 0.0),
+        };
+        let recorded = recording.stance.len();
+        // whole cycles only, the last ones
+        let used = match kind {
+            Kind::Periodic(n) if n as usize <= recorded => recorded - recorded % n as usize,
+            _ => recorded,
+        };
+        let (stance, tops) = (
+            &recording.stance[recorded - used..],
+            &recording.tops[recorded - used..],
+        );
+        let bodies = self.model.setup().jumpers.len();
+        let time = used as f64 * self.model.system().period();
+        let on_floor = |body: usize| stance.iter().map(|s| s[body]).sum::<f64>() / time;
+        let top = |channel: usize| {
+            tops.iter()
+                .fold(0.0, |most: f64, top| most.max(top[channel]))
+        };
+        let samples = match kind {
+            Kind::Periodic(n) => n as usize,
+            _ => 0,
+        };
+        // z of all bodies come first in a sample, then v of all
+        let section = |column: usize| -> Vec<f64> {
+            let backwards = (0..samples).rev();
+            backwards
+                .map(|back| self.samples.back(back)[column])
+                .collect()
+        };
+        Attractor {
+            kind,
+            contact_ratio: (0..bodies).map(on_floor).collect(),
+            peak_reaction: (0..bodies).map(|body| top(1 + body)).collect(),
+            peak_acceleration: top(0),
+            z: (0..bodies).map(section).collect(),
+            v: (bodies..2 * bodies).map(section).collect(),
+            ranges: recording.ranges.clone(),
+            rest,
+        }
+    }
+}
+
+const NOTHING: Range = [f64::INFINITY, f64::NEG_INFINITY];
+
+fn widened([low, high]: Range, value: f64) -> Range {
+    [low.min(value), high.max(value)]
+}
+
+/// Numbers in a sample: z and v of each body, then r_j and r_j', then what a leg remembers.
+fn width(model: &Model) -> usize {
+    let layout = model.layout;
+    let legs = if layout.legs { layout.jumpers } else { 0 };
+    2 * (layout.jumpers + layout.transverse) + legs
+}
+
+/// A state in units of eta and eta omega_h of its body, those of the plate of the first one. In-plane
+/// amplitudes are left out: they follow the others.
+fn coordinates(model: &Model, x: &[f64], row: &mut [f64]) {
+    let (layout, scales) = (model.layout, &model.scales);
+    let first = scales.jumpers.first();
+    let (length, speed) = first.map_or((1.0, 1.0), |unit| {
+        let speed = scales.velocity() / unit.velocity;
+        (scales.length / unit.position, speed)
+    });
+    let bodies = 0..layout.jumpers;
+    let values = bodies
+        .clone()
+        .map(|i| model.z(i, x))
+        .chain(bodies.clone().map(|i| model.v(i, x)))
+        .chain((0..layout.transverse).map(|j| x[layout.r(j)] * length))
+        .chain((0..layout.transverse).map(|j| x[layout.dr(j)] * speed))
+        .chain(
+            bodies
+                .filter(|_| layout.legs)
+                .map(|i| x[layout.leg(i)] * length),
+        );
+    for (out, value) in row.iter_mut().zip(values) {
+        *out = value;
+    }
+}

@@ -1,0 +1,196 @@
+//! Basins of attraction: which of several attractors a start leads to, told by the motions themselves.
+//!
+//! Cycles are the same if they have the same period and their samples agree within [`SAME`] after some
+//! rotation: all starts are at phase 0 of the drive, so the n shifts of an n-cycle are one attractor
+//! reached with different delays. Motions that do not repeat are the same if the ranges of z and of v
+//! at the samples overlap by more than half of the shorter one, for every body. A finite record of chaos
+//! shows its band only roughly, so this rather joins two such attractors than invents one.
+
+use super::attractor::{Attractor, Kind, Range};
+
+/// Samples that differ by no more than this (eta) may be of one cycle; twice what
+/// a slow transient is allowed to leave of each, and as much again.
+pub const SAME: f64 = 4e-3;
+
+/// The attractors met so far.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Catalogue {
+    entries: Vec<Entry>,
+}
+
+/// One attractor of a [`Catalogue`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// The motion that came closest to it.
+    pub attractor: Attractor,
+    /// How many starts led to it.
+    pub count: u64,
+    /// Number of the first start that led to it.
+    pub first: usize,
+    /// Ranges of all motions joined; of a cycle, its own.
+    ranges: Vec<(Range, Range)>,
+}
+
+impl Entry {
+    /// Part of all starts that led to it.
+    pub fn share(&self, starts: u64) -> f64 {
+        self.count as f64 / starts as f64
+    }
+}
+
+impl Catalogue {
+    /// Files a motion under the attractor it is on and gives that one's number, in order of discovery;
+    /// `None` for a motion that is undecided. Numbers depend on the order of the calls, so file motions in
+    /// the order of their starts.
+    pub fn file(&mut self, start: usize, motion: Attractor) -> Option<usize> {
+        let same = |entry: &Entry| match (motion.kind, entry.attractor.kind) {
+            (Kind::Periodic(n), Kind::Periodic(m)) if n == m => {
+                same_cycle(&motion, &entry.attractor)
+            }
+            (Kind::NotPeriodic, Kind::NotPeriodic) => same_band(&motion.ranges, &entry.ranges),
+            _ => false,
+        };
+        if motion.kind == Kind::Undecided {
+            return None;
+        }
+        let Some(number) = self.entries.iter().position(same) else {
+            self.entries.push(Entry {
+                ranges: motion.ranges.clone(),
+                attractor: motion,
+                count: 1,
+                first: start,
+            });
+            return Some(self.entries.len() - 1);
+        };
+        let entry = &mut self.entries[number];
+        entry.count += 1;
+        for (all, one) in entry.ranges.iter_mut().zip(&motion.ranges) {
+            *all = (hull(all.0, one.0), hull(all.1, one.1));
+        }
+        if motion.rest < entry.attractor.rest {
+            entry.attractor = motion;
+        }
+        Some(number)
+    }
+
+    /// The attractors, those with the most starts first, of equals the one found first; and for each
+    /// number given by [`Self::file`] its place in that list.
+    pub fn ranked(self) -> (Vec<Entry>, Vec<usize>) {
+        let mut order: Vec<usize> = (0..self.entries.len()).collect();
+        let key = |number: &usize| {
+            let entry = &self.entries[*number];
+            (std::cmp::Reverse(entry.count), entry.first)
+        };
+        order.sort_by_key(key);
+        let mut rank = vec![0; order.len()];
+        for (place, &number) in order.iter().enumerate() {
+            rank[number] = place;
+        }
+        let mut entries: Vec<Option<Entry>> = self.entries.into_iter().map(Some).collect();
+        let ranked = order.iter().filter_map(|&number| entries[number].take());
+        (ranked.collect(), rank)
+    }
+}
+
+/// Whether some rotation brings the samples of two n-cycles together, for all bodies at once.
+fn same_cycle(a: &Attractor, b: &Attractor) -> bool {
+    let n = a.z.first().map_or(0, Vec::len);
+    let agree = |shift: usize| {
+        let lists = a.z.iter().zip(&b.z).chain(a.v.iter().zip(&b.v));
+        lists
+            .flat_map(|(a, b)| (0..n).map(move |i| (a[i], b[(i + shift) % n])))
+            .all(|(a, b)| (a - b).abs() <= SAME)
+    };
+    (0..n).any(agree)
+}
+
+fn same_band(a: &[(Range, Range)], b: &[(Range, Range)]) -> bool {
+    let both = |(a, b): (&(Range, Range), &(Range, Range))| overlap(a.0, b.0) && overlap(a.1, b.1);
+    a.iter().zip(b).all(both)
+}
+
+/// By more than half of the shorter one.
+fn overlap(a: Range, b: Range) -> bool {
+    let common = a[1].min(b[1]) - a[0].max(b[0]);
+    2.0 * common > (a[1] - a[0]).min(b[1] - b[0])
+}
+
+fn hull(a: Range, b: Range) -> Range {
+    [a[0].min(b[0]), a[1].max(b[1])]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cycle(z: &[f64], rest: f64) -> Attractor {
+        let range = z.iter().fold([f64::MAX, f64::MIN], |r, &z| hull(r, [z, z]));
+        Attractor {
+            kind: Kind::Periodic(z.len() as u32),
+            contact_ratio: vec![0.5],
+            peak_reaction: vec![3.0],
+            peak_acceleration: 2.0,
+            z: vec![z.to_vec()],
+            v: vec![z.iter().map(|z| 2.0 * z).collect()],
+            ranges: vec![(range, range)],
+            rest,
+        }
+    }
+
+    fn band(low: f64, high: f64) -> Attractor {
+        Attractor {
+            kind: Kind::NotPeriodic,
+            ranges: vec![([low, high], [low, high])],
+            z: vec![vec![]],
+            v: vec![vec![]],
+            ..cycle(&[0.0], 0.0)
+        }
+    }
+
+    #[test]
+    fn shifts_of_a_cycle_are_one_attractor() {
+        let mut all = Catalogue::default();
+        assert_eq!(all.file(0, cycle(&[1.0, 2.0, 4.0], 1e-4)), Some(0));
+        assert_eq!(all.file(1, cycle(&[2.0, 4.0, 1.0], 0.0)), Some(0));
+        assert_eq!(all.file(2, cycle(&[4.001, 1.0, 2.0], 1e-3)), Some(0));
+        // another order, another period, other values
+        assert_eq!(all.file(3, cycle(&[2.0, 1.0, 4.0], 0.0)), Some(1));
+        assert_eq!(all.file(4, cycle(&[1.0, 2.0, 4.0, 4.0], 0.0)), Some(2));
+        assert_eq!(all.file(5, cycle(&[1.0, 2.0, 4.1], 0.0)), Some(3));
+        let (entries, _) = all.ranked();
+        assert_eq!(entries[0].count, 3);
+        assert_eq!(
+            entries[0].attractor.rest, 0.0,
+            "the closest one stands for all"
+        );
+    }
+
+    #[test]
+    fn bands_are_joined_rather_than_told_apart() {
+        let mut all = Catalogue::default();
+        assert_eq!(all.file(0, band(0.0, 1.0)), Some(0));
+        assert_eq!(all.file(1, band(0.1, 0.9)), Some(0));
+        assert_eq!(all.file(2, band(0.4, 1.4)), Some(0));
+        assert_eq!(all.file(3, band(1.3, 1.35)), Some(0), "the band has grown");
+        assert_eq!(all.file(4, band(3.0, 4.0)), Some(1));
+    }
+
+    #[test]
+    fn order_is_by_share_and_then_by_the_first_start() {
+        let mut all = Catalogue::default();
+        let starts = [1.0, 2.0, 3.0, 3.0, 2.0];
+        for (start, z) in starts.iter().enumerate() {
+            all.file(start, cycle(&[*z], 0.0));
+        }
+        let lost = Attractor {
+            kind: Kind::Undecided,
+            ..cycle(&[9.0], 0.0)
+        };
+        assert_eq!(all.file(5, lost), None);
+        let (entries, rank) = all.ranked();
+        let z: Vec<f64> = entries.iter().map(|e| e.attractor.z[0][0]).collect();
+        assert_eq!(z, [2.0, 3.0, 1.0]);
+        assert_eq!(rank, [2, 0, 1]);
+        assert_eq!(entries[0].share(6), 1.0 / 3.0);
+    }
+}

@@ -1,0 +1,345 @@
+//! Has a motion settled, on a cycle of which period? Decided on samples at the section.
+//!
+//! With d_k = |x_k - x_(k-n)| the distance of a sample from the one n periods before, D is the largest
+//! d_k of the last block of samples and D' that of the block before. A motion that settles on a cycle
+//! whose length divides n contracts by some q = D/D' per block, so by q^(n/block) per return, and what is
+//! still to come is at most the geometric series
+//!
+//! ```text
+//! r_n = D q^(n/block) / (1 - q^(n/block)).
+//! ```
+//!
+//! The motion has period n if r_n is small and n is the shortest such: for every divisor m of n the
+//! samples m periods apart must lie further apart than what is still to come can explain, and stay so. So
+//! an alternating approach to a fixed point, whose every second sample hardly moves, is not called a 2-cycle.
+//! Where D is no longer above the noise of the integration it does not shrink either, and r_n = D.
+//!
+//! A motion whose returns are small, but visibly shrink or grow over four blocks in a row, or hardly change
+//! from one to the next, is [`Settling::Drifting`]: still coming to a cycle, or leaving an unstable one. Near
+//! a bifurcation this is the honest answer after any finite number of periods. A torus narrower than
+//! about 0.05 eta may be taken for such a drift.
+
+/// Longest period looked for.
+pub const MAX_PERIOD: usize = 32;
+
+/// Samples in a block at least: short periods have several returns in one.
+const BLOCK: usize = 16;
+
+/// Distances below this are noise of the integration (in the units of the samples, eta).
+const NOISE: f64 = 1e-9;
+
+/// What is still to come must be this many times smaller than the distance that tells two periods apart.
+const APART: f64 = 10.0;
+
+/// Distances that tell two periods apart keep this part of themselves from block to block.
+const STAYS: f64 = 0.99;
+
+/// Distances above this are no return at all.
+const FAR: f64 = 0.1;
+
+/// Each of four blocks shrinks to less than this in a visible contraction, or grows by as much; a torus or
+/// a chaotic band keeps its width. With blocks of 56 samples that is seen up to a multiplier of 0.9995.
+const VISIBLE: f64 = 0.97;
+
+/// Returns below this may be a drift (eta), if one differs from the next by less than this part.
+const SLOW: f64 = 0.02;
+const STEADY: f64 = 0.1;
+
+/// How much of a transient may be left.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Closeness {
+    /// Largest distance of a return (eta).
+    pub(crate) distance: f64,
+    /// Largest sum of the returns still to come (eta).
+    pub(crate) rest: f64,
+}
+
+impl Closeness {
+    /// Surely on the cycle: the rest of the transient can be left out.
+    pub(crate) const TIGHT: Self = Self {
+        distance: 1e-7,
+        rest: 1e-6,
+    };
+    /// Close enough to name the period when there is no more time.
+    pub(crate) const FAIR: Self = Self {
+        distance: 1e-4,
+        rest: 1e-3,
+    };
+}
+
+/// A motion on a cycle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct OnCycle {
+    /// Period of the cycle.
+    pub(crate) period: u32,
+    /// Bound of what is still to come of the transient (eta).
+    pub(crate) rest: f64,
+}
+
+/// What the samples say.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Settling {
+    /// On a cycle.
+    Settled(OnCycle),
+    /// Coming closer to some cycle, but not close enough to say to which, or leaving one.
+    Drifting,
+    /// Neither.
+    Open,
+}
+
+/// The last samples of a motion, as many as a verdict may need.
+#[derive(Clone, Debug)]
+pub(crate) struct Samples {
+    width: usize,
+    /// Sample k stands at row k mod [`Self::ROWS`].
+    rows: Vec<f64>,
+    count: usize,
+}
+
+impl Samples {
+    /// Four blocks of 56 and one return of the longest period.
+    const ROWS: usize = 256;
+
+    /// Of `width` numbers each, in units of eta.
+    pub(crate) fn new(width: usize) -> Self {
+        Self {
+            width,
+            rows: vec![0.0; width * Self::ROWS],
+            count: 0,
+        }
+    }
+
+    pub(crate) fn push(&mut self, fill: impl FnOnce(&mut [f64])) {
+        let row = self.count % Self::ROWS;
+        fill(&mut self.rows[row * self.width..(row + 1) * self.width]);
+        self.count += 1;
+    }
+
+    pub(crate) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The sample `back` samples before the last.
+    pub(crate) fn back(&self, back: usize) -> &[f64] {
+        let row = (self.count - 1 - back) % Self::ROWS;
+        &self.rows[row * self.width..(row + 1) * self.width]
+    }
+
+    fn distance(&self, back: usize, n: usize) -> f64 {
+        let pairs = self.back(back).iter().zip(self.back(back + n));
+        pairs.fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()))
+    }
+
+    /// Largest distance over `n` periods in `block` samples that end `back` samples before the last.
+    fn largest(&self, back: usize, block: usize, n: usize) -> f64 {
+        let distances = (back..back + block).map(|back| self.distance(back, n));
+        distances.fold(0.0, f64::max)
+    }
+
+    /// D and r_n, if there are samples enough.
+    fn rest(&self, n: usize) -> Option<(f64, f64)> {
+        let block = n.max(BLOCK);
+        if self.count < 2 * block + n {
+            return None;
+        }
+        let last = self.largest(0, block, n);
+        if last <= NOISE {
+            return Some((last, last));
+        }
+        let shrink = last / self.largest(block, block, n);
+        let per_return = shrink.powf(n as f64 / block as f64);
+        let still = per_return / (1.0 - per_return);
+        let rest = if per_return < 1.0 {
+            last * still
+        } else {
+            f64::INFINITY
+        };
+        Some((last, rest))
+    }
+
+    /// Whether samples `m` apart, for all divisors m of `n`, stay apart by more than `rest` can explain.
+    fn is_shortest(&self, n: usize, rest: f64) -> bool {
+        let block = n.max(BLOCK);
+        let apart = |m: usize| {
+            let (last, before) = (self.largest(0, block, m), self.largest(block, block, m));
+            last > APART * rest.max(NOISE) && last > STAYS * before
+        };
+        (1..n).filter(|m| n.is_multiple_of(*m)).all(apart)
+    }
+
+    /// Whether the motion is on a cycle, as closely as `limit` asks; `None` if it is not known to be.
+    pub(crate) fn settled(&self, limit: Closeness) -> Option<OnCycle> {
+        // most candidates are refused by one comparison
+        let near = |n: &usize| self.count > *n && self.distance(0, *n) <= limit.distance;
+        (1..=MAX_PERIOD).filter(near).find_map(|n| {
+            let (last, rest) = self.rest(n)?;
+            let close = last <= limit.distance && rest <= limit.rest;
+            let period = n as u32;
+            (close && self.is_shortest(n, rest)).then_some(OnCycle { period, rest })
+        })
+    }
+
+    /// Whether the motion visibly comes closer to some cycle, or leaves one.
+    fn drifts(&self) -> bool {
+        let drifts = |n: usize| {
+            let block = self.count.min(Self::ROWS).saturating_sub(n) / 4;
+            if block < BLOCK / 2 || self.largest(0, block, n) > FAR {
+                return false;
+            }
+            let blocks = [0, 1, 2, 3].map(|i| self.largest(i * block, block, n));
+            let shrinks = |pair: &[f64]| pair[0] < VISIBLE * pair[1];
+            let grows = |pair: &[f64]| pair[1] < VISIBLE * pair[0];
+            blocks.windows(2).all(shrinks) || blocks.windows(2).all(grows)
+        };
+        (1..=MAX_PERIOD).any(|n| drifts(n) || self.creeps(n))
+    }
+
+    /// Whether the returns after `n` periods are small, and each is nearly the one before.
+    fn creeps(&self, n: usize) -> bool {
+        let block = n.max(BLOCK);
+        if self.count < block + 2 * n {
+            return false;
+        }
+        let largest = self.largest(0, block, n);
+        let steady = |back: usize| {
+            let (now, before) = (self.back(back), self.back(back + n));
+            let triples = now.iter().zip(before).zip(self.back(back + 2 * n));
+            triples
+                .map(|((a, b), c)| (a - 2.0 * b + c).abs())
+                .all(|change| change <= STEADY * largest)
+        };
+        largest <= SLOW && (0..block).all(steady)
+    }
+
+    /// What the samples say when there is no more time.
+    pub(crate) fn judge(&self) -> Settling {
+        match self.settled(Closeness::FAIR) {
+            Some(found) => Settling::Settled(found),
+            None if self.drifts() => Settling::Drifting,
+            None => Settling::Open,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn samples(count: usize, at: impl Fn(f64) -> f64) -> Samples {
+        let mut samples = Samples::new(1);
+        for k in 0..count {
+            samples.push(|row| row[0] = at(k as f64));
+        }
+        samples
+    }
+
+    fn tight(count: usize, at: impl Fn(f64) -> f64) -> Option<u32> {
+        let settled = samples(count, at).settled(Closeness::TIGHT);
+        settled.map(|found| found.period)
+    }
+
+    fn period(found: Settling) -> Option<u32> {
+        match found {
+            Settling::Settled(found) => Some(found.period),
+            _ => None,
+        }
+    }
+
+    #[test]
+    fn cycles_have_their_shortest_period() {
+        for n in [1, 2, 3, 4, 5, 8, 12, 16, 31, 32] {
+            let cycle = |k: f64| ((k as usize % n) as f64 * 0.7).sin();
+            assert_eq!(tight(200, cycle), Some(n as u32), "{n}");
+        }
+        let long = |k: f64| ((k as usize % 33) as f64 * 0.7).sin();
+        assert_eq!(samples(400, long).judge(), Settling::Open);
+    }
+
+    #[test]
+    fn too_few_samples_say_nothing() {
+        assert_eq!(samples(17, |_| 1.0).judge(), Settling::Open);
+        assert_eq!(period(samples(32, |_| 1.0).judge()), None);
+        assert_eq!(tight(33, |_| 1.0), Some(1));
+        assert_eq!(samples(0, |_| 1.0).judge(), Settling::Open);
+    }
+
+    #[test]
+    fn the_rest_of_a_transient_is_bounded() {
+        for rate in [0.5_f64, 0.9, 0.97] {
+            let mut samples = Samples::new(1);
+            let there = (0..2000).find_map(|k| {
+                let left = 0.3 * rate.powi(k);
+                samples.push(|row| row[0] = 1.0 + left);
+                Some((samples.settled(Closeness::TIGHT)?, left))
+            });
+            let (found, left) = there.expect("it settles");
+            assert_eq!(found.period, 1);
+            assert!(
+                left <= 1.01 * found.rest + NOISE,
+                "{rate}: {left}, {found:?}"
+            );
+            assert!(found.rest <= 1e-6);
+        }
+    }
+
+    #[test]
+    fn a_slow_alternating_approach_is_no_two_cycle() {
+        // every second sample moves by a thousandth of what is left
+        let slow = |k: f64| 1e-2 * (-0.9995_f64).powi(k as i32);
+        for count in [100, 464, 1000] {
+            assert_eq!(period(samples(count, slow).judge()), None, "{count}");
+        }
+        // less slow: visibly on its way, then there
+        let less = |k: f64| (-0.98_f64).powi(k as i32);
+        assert_eq!(samples(300, less).judge(), Settling::Drifting);
+        assert_eq!(period(samples(1000, less).judge()), Some(1));
+        assert_eq!(tight(2000, less), Some(1));
+        // a faster decay in the same motion does not hide the alternating one
+        for count in (40..400).step_by(8) {
+            let both = |k: f64| 0.85_f64.powf(k) + 1e-3 * (-0.95_f64).powi(k as i32);
+            assert!(tight(count, both).is_none_or(|n| n == 1), "{count}");
+        }
+    }
+
+    #[test]
+    fn a_cycle_barely_split_is_told_once_it_has_settled() {
+        let sign = |k: f64| if k % 2.0 == 0.0 { 1.0 } else { -1.0 };
+        assert_eq!(
+            tight(400, |k| 0.2 * (1.0 - 0.9_f64.powf(k)) * sign(k)),
+            Some(2)
+        );
+        assert_eq!(tight(400, |k| 1e-6 * sign(k)), Some(2));
+    }
+
+    #[test]
+    fn what_never_repeats_stays_open() {
+        let turn = |k: f64| (k * 0.618_034 * std::f64::consts::TAU).sin();
+        assert_eq!(samples(464, |k| 1e-3 * turn(k)).judge(), Settling::Open);
+        let mut x = 0.3;
+        let mut chaos = Samples::new(1);
+        for _ in 0..464 {
+            x = 3.9 * x * (1.0 - x);
+            chaos.push(|row| row[0] = x);
+            assert_eq!(chaos.settled(Closeness::FAIR), None);
+        }
+        assert_eq!(chaos.judge(), Settling::Open);
+    }
+
+    #[test]
+    fn a_split_that_grows_and_slows_down_is_a_drift() {
+        // a fixed point that has lost its stability, passed closely, and the 2-cycle beyond
+        let sign = |k: f64| if k % 2.0 == 0.0 { 1.0 } else { -1.0 };
+        let split = |k: f64| 0.3 * sign(k) / (1.0 + (-(k - 400.0) / 60.0).exp());
+        for count in [300, 464, 600] {
+            assert_eq!(samples(count, split).judge(), Settling::Drifting, "{count}");
+        }
+        assert_eq!(period(samples(1500, split).judge()), Some(2));
+    }
+
+    #[test]
+    fn leaving_an_unstable_cycle_is_not_settling() {
+        let leaving = |k: f64| 1e-6 * 1.01_f64.powf(k);
+        assert_eq!(tight(200, leaving), None);
+        assert_eq!(samples(464, leaving).judge(), Settling::Drifting);
+    }
+}

@@ -1,0 +1,251 @@
+//! Maps of parameters and of starts: the same answers as single motions, early or late, in any order.
+
+use saltus::model::{ModelError, PreparedPlate, Setup};
+use saltus::physics::PhysicsError;
+use saltus::study::{
+    Catalogue, Control, Found, Grid, Kind, Lost, Search, StudyError, Sweep, attractors, map,
+    simulate,
+};
+use std::sync::Arc;
+
+/// A coarse map of the paper's case.
+fn grid() -> Grid {
+    Grid {
+        x: Sweep::linspace(0.1, 0.5, 7),
+        y: Sweep::linspace(0.85, 1.15, 6),
+    }
+}
+
+fn plate() -> Arc<PreparedPlate> {
+    PreparedPlate::new(&Setup::dias_del_prado(0.3, 1.0).plate).expect("the paper's plate")
+}
+
+fn found(pixels: &[usize], search: &Search, threads: usize) -> Vec<(usize, Found)> {
+    let (grid, plate) = (grid(), plate());
+    let control = Control {
+        threads,
+        ..Control::default()
+    };
+    let model_at = |x: f64, y: f64| {
+        let model = Setup::dias_del_prado(x, y).model_on(&plate)?;
+        let start = model.start(3.0, 2.0);
+        Ok((model, start))
+    };
+    let mut out = Vec::new();
+    map(
+        &grid,
+        pixels.iter().copied(),
+        model_at,
+        search,
+        &control,
+        |pixel, found| {
+            out.push((pixel, found));
+            Ok::<(), StudyError>(())
+        },
+    )
+    .expect("runs");
+    out.sort_by_key(|(pixel, _)| *pixel);
+    out
+}
+
+fn kind(found: &Found) -> Option<Kind> {
+    found.attractor.as_ref().ok().map(|a| a.kind)
+}
+
+#[test]
+fn pixels_are_the_same_bits_alone_in_any_order_and_on_any_threads() {
+    let all: Vec<usize> = (0..grid().len()).collect();
+    let search = Search {
+        transient: 120,
+        ..Search::default()
+    };
+    let one = found(&all, &search, 1);
+    let backwards: Vec<usize> = all.iter().rev().copied().collect();
+    assert_eq!(found(&backwards, &search, 3), one);
+    for pixel in [0, 17, 41] {
+        assert_eq!(found(&[pixel], &search, 1)[0], one[pixel]);
+    }
+}
+
+#[test]
+fn stopping_early_changes_no_label_and_saves_a_third() {
+    let all: Vec<usize> = (0..grid().len()).collect();
+    let early = found(&all, &Search::default(), 0);
+    let full = Search {
+        early_stop: false,
+        ..Search::default()
+    };
+    let late = found(&all, &full, 0);
+    let periods = |found: &[(usize, Found)]| found.iter().map(|(_, f)| f.periods).sum::<u64>();
+    assert!(3 * periods(&early) < 2 * periods(&late));
+    for ((pixel, early), (_, late)) in early.iter().zip(&late) {
+        assert_eq!(kind(early), kind(late), "{:?}", grid().at(*pixel));
+        let (Ok(early), Ok(late)) = (&early.attractor, &late.attractor) else {
+            panic!("{:?}", grid().at(*pixel));
+        };
+        if let Kind::Periodic(_) = early.kind {
+            // the transient left out is below 1e-6 eta; accelerations are some ten m/s^2
+            assert!((early.contact_ratio[0] - late.contact_ratio[0]).abs() < 1e-6);
+            assert!((early.peak_reaction[0] - late.peak_reaction[0]).abs() < 1e-5);
+            assert!((early.peak_acceleration - late.peak_acceleration).abs() < 1e-4);
+        }
+    }
+}
+
+#[test]
+fn labels_are_those_of_the_paper() {
+    // DP Fig. 3b, 3e, and 2b at small damping.
+    for (zeta, ratio, expected) in [
+        (0.35, 0.9, Kind::Periodic(1)),
+        (0.28, 1.0, Kind::Periodic(2)),
+        (0.12, 1.0, Kind::NotPeriodic),
+    ] {
+        let model = Setup::dias_del_prado(zeta, ratio).model().expect("valid");
+        let mut labels = Vec::new();
+        let start_at = |_| Ok((model.clone(), model.start(3.0, 2.0)));
+        attractors(
+            [0],
+            start_at,
+            &Search::default(),
+            &Control::default(),
+            |_, found| {
+                labels.extend(kind(&found));
+                Ok::<(), StudyError>(())
+            },
+        )
+        .expect("runs");
+        assert_eq!(labels, [expected], "{zeta} {ratio}");
+    }
+}
+
+#[test]
+fn peaks_are_those_of_a_fine_time_history() {
+    let search = Search {
+        transient: 12,
+        record: 8,
+        early_stop: false,
+    };
+    for (zeta, ratio) in [(0.3, 1.0), (0.12, 1.0), (0.15, 1.1)] {
+        let model = Setup::dias_del_prado(zeta, ratio).model().expect("valid");
+        let start = model.start(3.0, 2.0);
+        let mut peaks = None;
+        let start_at = |_| Ok((model.clone(), start.clone()));
+        attractors([0], start_at, &search, &Control::default(), |_, found| {
+            peaks = found.attractor.ok();
+            Ok::<(), StudyError>(())
+        })
+        .expect("runs");
+        let peaks = peaks.expect("a motion");
+        let run = simulate(&model, &start, 20, 8, 4000, &Control::default()).expect("runs");
+        let states = &run.history.states;
+        let reaction = states.iter().fold(0.0, |m: f64, s| m.max(s.prf[0]));
+        // 4000 readings per period miss a top by some 1e-6 of it
+        let error = peaks.peak_reaction[0] / reaction - 1.0;
+        assert!(error.abs() < 1e-5, "{zeta} {ratio}: {error}");
+        // second differences, of second order, kept within each step of the motion
+        let h = model.scales().period() / 4000.0;
+        let second = |w: &[saltus::model::Observation]| {
+            ((w[0].floor[0] - 2.0 * w[1].floor[0] + w[2].floor[0]) / (h * h)).abs()
+        };
+        let acceleration = states.windows(3).map(second).fold(0.0, f64::max);
+        let error = peaks.peak_acceleration / acceleration - 1.0;
+        assert!(error.abs() < 2e-4, "{zeta} {ratio}: {error}");
+    }
+}
+
+#[test]
+fn coexisting_attractors_are_told_apart_and_shifts_of_one_are_not() {
+    // zeta_h 0.15 at 0.9: two 2-cycles, one of them rare.
+    let model = Setup::dias_del_prado(0.15, 0.9).model().expect("valid");
+    let starts = [
+        (-2.0, -4.0),
+        (0.5, 1.0),
+        (4.933_333_333_333_334, 0.8),
+        (3.0, 2.0),
+    ];
+    let start_at = |i: usize| Ok((model.clone(), model.start(starts[i].0, starts[i].1)));
+    let mut motions = vec![None; starts.len()];
+    attractors(
+        0..starts.len(),
+        start_at,
+        &Search::default(),
+        &Control::default(),
+        |i, found| {
+            motions[i] = found.attractor.ok();
+            Ok::<(), StudyError>(())
+        },
+    )
+    .expect("runs");
+    let mut all = Catalogue::default();
+    let numbers: Vec<_> = motions
+        .into_iter()
+        .enumerate()
+        .map(|(i, motion)| all.file(i, motion.expect("a motion")))
+        .collect();
+    assert_eq!(numbers, [Some(0), Some(0), Some(1), Some(0)]);
+    let (entries, _) = all.ranked();
+    assert!(
+        entries
+            .iter()
+            .all(|e| e.attractor.kind == Kind::Periodic(2))
+    );
+}
+
+#[test]
+fn a_pixel_without_model_and_one_of_another_structure_are_answers_too() {
+    let setups = |i: usize| {
+        let mut setup = Setup::dias_del_prado(0.3, 0.9);
+        match i {
+            0 => setup.plate.thickness = -1.0,
+            1 => setup.inertia = saltus::model::Inertia::Full,
+            _ => {}
+        }
+        setup
+    };
+    let start_at = |i: usize| {
+        let model = setups(i).model()?;
+        let start = model.start(3.0, 2.0);
+        Ok((model, start))
+    };
+    let search = Search {
+        transient: 4,
+        record: 4,
+        early_stop: true,
+    };
+    let mut answers = vec![None; 4];
+    attractors(0..4, start_at, &search, &Control::default(), |i, found| {
+        answers[i] = Some(found);
+        Ok::<(), StudyError>(())
+    })
+    .expect("runs");
+    let answer = |i: usize| answers[i].as_ref().expect("an answer");
+    assert!(matches!(
+        answer(0).attractor,
+        Err(Lost::NoModel(ModelError::Physics(
+            PhysicsError::OutOfRange { .. }
+        )))
+    ));
+    assert!(answer(1).attractor.is_ok());
+    assert_eq!(answer(2), answer(3));
+}
+
+#[test]
+fn a_sink_that_refuses_ends_the_search() {
+    let model = Setup::dias_del_prado(0.3, 0.9).model().expect("valid");
+    let start_at = |_| Ok((model.clone(), model.start(3.0, 2.0)));
+    #[derive(Debug, PartialEq)]
+    struct Full;
+    impl From<StudyError> for Full {
+        fn from(_: StudyError) -> Self {
+            panic!("no error of the study")
+        }
+    }
+    let refused = attractors(
+        0..100,
+        start_at,
+        &Search::default(),
+        &Control::default(),
+        |_, _| Err(Full),
+    );
+    assert_eq!(refused, Err(Full));
+}
