@@ -33,6 +33,7 @@ impl Study {
                 .steps_per_period
                 .saturating_mul(2)
                 .max(usual.max_steps),
+            ..usual
         }
     }
 

@@ -50,8 +50,9 @@ impl Adiabatic {
         }
     }
 
-    /// x from q of the last round, known below `order`.
+    /// The first `terms` terms of x from q of the last round, known below `order`.
     #[inline(always)]
+    #[allow(clippy::too_many_arguments)]
     pub(crate) fn update<A: Arith>(
         &self,
         arith: A,
@@ -60,27 +61,32 @@ impl Adiabatic {
         stride: usize,
         scratch: &mut [A::Cell],
         order: usize,
+        terms: usize,
     ) {
         let n = self.sources;
         let damping = arith.load(&stream[self.damping]);
         let (mut from, mut to) = scratch.split_at_mut((order + 1) * n);
-        for k in 0..order {
-            from[k * n..][..n].copy_from_slice(&kept[k * stride + self.source..][..n]);
-        }
-        self.clear(kept, stride);
-        for (round, &response) in self.responses.iter().enumerate() {
+        for (round, &response) in self.responses[..terms].iter().enumerate() {
             let known = order.saturating_sub(2 * (round + 1));
+            let weights = &stream[response..][..self.count * n];
             for k in 0..known {
                 let first = arith.mul(damping, arith.splat((k + 1) as f64));
                 let second = arith.splat(((k + 1) * (k + 2)) as f64);
-                let (a, b) = (&from[(k + 1) * n..][..n], &from[(k + 2) * n..][..n]);
-                for ((out, a), b) in to[k * n..][..n].iter_mut().zip(a).zip(b) {
-                    let sum = arith.mul(second, arith.load(b));
-                    *out = arith.store(arith.mul_add(first, arith.load(a), sum));
+                let at = |k: usize| match round {
+                    0 => &kept[k * stride + self.source..][..n],
+                    _ => &from[k * n..][..n],
+                };
+                let (a, b) = (at(k + 1), at(k + 2));
+                let next = &mut to[k * n..][..n];
+                for i in 0..n {
+                    let sum = arith.mul(second, arith.load(&b[i]));
+                    next[i] = arith.store(arith.mul_add(first, arith.load(&a[i]), sum));
                 }
-                let weights = &stream[response..][..self.count * n];
                 let out = &mut kept[k * stride + self.out..][..self.count];
-                block_rows(arith, weights, &to[k * n..][..n], true, out);
+                block_rows(arith, weights, next, round > 0, out);
+            }
+            if round == 0 {
+                self.clear(&mut kept[known * stride..], stride);
             }
             std::mem::swap(&mut from, &mut to);
         }

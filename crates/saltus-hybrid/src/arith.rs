@@ -16,6 +16,8 @@ pub(crate) trait Arith: Copy {
     type Cell: Copy + Default;
     /// As computed with.
     type V: Copy;
+    /// Whether straight-line code pays: eight lanes in one or two registers.
+    const WIDE: bool;
     fn load(self, cell: &Self::Cell) -> Self::V;
     fn store(self, value: Self::V) -> Self::Cell;
     fn splat(self, value: f64) -> Self::V;
@@ -32,6 +34,7 @@ pub(crate) struct Scalar;
 impl Arith for Scalar {
     type Cell = f64;
     type V = f64;
+    const WIDE: bool = false;
     #[inline(always)]
     fn load(self, cell: &f64) -> f64 {
         *cell
@@ -66,6 +69,7 @@ pub(crate) struct Wide<S: Simd>(pub(crate) S);
 impl<S: Simd> Arith for Wide<S> {
     type Cell = Pack;
     type V = f64x8<S>;
+    const WIDE: bool = size_of::<S::f64s>() >= 32;
     #[inline(always)]
     fn load(self, cell: &Pack) -> f64x8<S> {
         f64x8::load_array_ref(self.0, &cell.0)

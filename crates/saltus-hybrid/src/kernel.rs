@@ -53,8 +53,7 @@ struct GuardRange {
 }
 
 impl Kernel {
-    /// At the best instruction set of this machine.
-    pub(crate) fn new(structure: &Arc<Structure>, tolerance: f64, order: usize) -> Self {
+    pub(crate) fn new(structure: &Arc<Structure>, tolerance: f64, order: usize, level: Level) -> Self {
         let guard = GuardRange {
             low: Pack::default(),
             high: Pack::default(),
@@ -68,7 +67,7 @@ impl Kernel {
             left: Pack::default(),
             lengths: Pack::default(),
             tolerance,
-            level: Level::new(),
+            level,
             shape: Shape::of(structure),
             stream: vec![Pack::default(); structure.stream.len()],
             series: Series::new(structure, order),

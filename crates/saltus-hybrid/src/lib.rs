@@ -24,8 +24,8 @@ pub mod testing;
 pub use parallel::{integrate_all, integrate_groups, integrate_stream};
 pub use record::{RecordedSwitch, Recording, record};
 pub use run::{
-    End, IntegrateError, Leg, Method, Options, Sample, Status, Step, Switch, SwitchKind, Task,
-    integrate,
+    End, Instructions, IntegrateError, Leg, Method, Options, Sample, Status, Step, Switch,
+    SwitchKind, Task, integrate,
 };
 pub use system::{
     BuildError, Evaluator, Mode, Node, Point, System, SystemBuilder, Transition, Unit,

@@ -2,6 +2,8 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use fearless_simd::Level;
+
 use crate::rk4;
 use crate::system::{Mode, Point, System};
 use crate::taylor;
@@ -37,6 +39,33 @@ impl Method {
     }
 }
 
+/// Which instructions the series of eight trajectories are computed with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Instructions {
+    /// The best that this machine has.
+    #[default]
+    Best,
+    /// AVX2 with fused multiply-adds, or the best where there is none: the same bits as AVX-512.
+    Avx2,
+    /// What every machine of this architecture has. Without fused multiply-adds results differ from
+    /// the others by rounding.
+    Baseline,
+}
+
+impl Instructions {
+    pub(crate) fn level(self) -> Level {
+        let best = Level::new();
+        match self {
+            Self::Best => best,
+            #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+            Self::Avx2 => best.as_avx2().map_or(best, Level::Avx2),
+            #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+            Self::Avx2 => best,
+            Self::Baseline => Level::baseline(),
+        }
+    }
+}
+
 /// Settings of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
@@ -47,6 +76,8 @@ pub struct Options {
     pub max_switches: u32,
     /// Steps allowed in one period before the run ends as [`Status::TooManySteps`].
     pub max_steps: u32,
+    /// For tests and for results that are to be the same on other machines.
+    pub instructions: Instructions,
 }
 
 impl Default for Options {
@@ -56,6 +87,7 @@ impl Default for Options {
             method: Method::taylor(1e-10),
             max_switches: 100,
             max_steps: 1_000_000,
+            instructions: Instructions::Best,
         }
     }
 }

@@ -3,6 +3,7 @@
 //! With node(t0 + s) = sum_k node[k] s^k: a sum is a sum in each order, a product is the Cauchy
 //! product, and x' = node gives x[k+1] = node[k]/(k+1). See Jorba & Zou, Experiment. Math. 14 (2005).
 
+use crate::adiabatic::Adiabatic;
 use crate::arith::{Arith, Scalar};
 use crate::cauchy::{Orders, products, squares, squares_and_products};
 use crate::compile::{Cubic, Group, MAX_NODES, Op, Place, Step, Structure};
@@ -374,15 +375,18 @@ pub(crate) fn expand<A: Arith>(
     stream: &[A::Cell],
     series: &mut Series<A::Cell>,
 ) {
-    let Some(adiabatic) = &structure.adiabatic else {
-        return expand_once(arith, structure, shape, stream, series);
-    };
     let (order, stride) = (series.order, series.slots);
-    adiabatic.clear(&mut series.kept, stride);
-    expand_once(arith, structure, shape, stream, series);
-    for _ in 0..adiabatic.corrections() {
+    let adiabatic = structure.adiabatic.as_ref();
+    // One call only, in a loop: all of the program is compiled into it.
+    for terms in 0..=adiabatic.map_or(0, Adiabatic::corrections) {
         let (kept, scratch) = (&mut series.kept, &mut series.scratch);
-        adiabatic.update(arith, stream, kept, stride, scratch, order);
+        match adiabatic {
+            Some(adiabatic) if terms > 0 => {
+                adiabatic.update(arith, stream, kept, stride, scratch, order, terms);
+            }
+            Some(adiabatic) => adiabatic.clear(kept, stride),
+            None => {}
+        }
         expand_once(arith, structure, shape, stream, series);
     }
 }
@@ -396,12 +400,14 @@ fn expand_once<A: Arith>(
     stream: &[A::Cell],
     series: &mut Series<A::Cell>,
 ) {
-    match shape {
-        Some(shape) => shape.expand(arith, stream, &mut series.kept),
-        None if series.now.len() == FEW => {
-            expand_in::<A, FEW>(arith, structure, stream, series);
-        }
-        None => expand_in::<A, MAX_NODES>(arith, structure, stream, series),
+    if A::WIDE
+        && let Some(shape) = shape
+    {
+        shape.expand(arith, stream, &mut series.kept);
+    } else if series.now.len() == FEW {
+        expand_in::<A, FEW>(arith, structure, stream, series);
+    } else {
+        expand_in::<A, MAX_NODES>(arith, structure, stream, series);
     }
 }
 

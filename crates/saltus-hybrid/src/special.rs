@@ -53,7 +53,12 @@ macro_rules! shapes {
     };
 }
 
-shapes!(condensed_4_1, slow_manifold_4_1);
+shapes!(
+    condensed_4_1,
+    condensed_4_1_gap,
+    condensed_4_1_relaxing,
+    slow_manifold_4_1
+);
 
 /// A number that tells programs apart: 64-bit FNV-1a of all that the code depends on.
 fn key(structure: &Structure) -> u64 {
@@ -269,9 +274,13 @@ fn guards<A: Arith>(
                     }
                 }
                 Op::Cubic(index) => self.cubic(&s.cubics[*index])?,
-                Op::Matrix { .. } | Op::Squares { .. } | Op::Products { .. } => {
-                    return Err(std::fmt::Error);
-                }
+                Op::Matrix {
+                    out,
+                    rows,
+                    weights,
+                    nodes,
+                } => self.matrix(*out, *rows, *weights, *nodes)?,
+                Op::Squares { .. } | Op::Products { .. } => return Err(std::fmt::Error),
             }
             for (node, slot) in &s.keeps[step.keeps.0..step.keeps.1] {
                 writeln!(self.out, "    row[{slot}] = a.store(n{node});")?;
@@ -292,6 +301,32 @@ fn guards<A: Arith>(
             match group.out {
                 Place::Now(node) => writeln!(self.out, "    let n{} = {sum};", node + w)?,
                 Place::Kept(slot) => writeln!(self.out, "    row[{}] = a.store({sum});", slot + w)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn matrix(
+        &mut self,
+        out: Place,
+        rows: usize,
+        weights: usize,
+        nodes: (usize, usize),
+    ) -> std::fmt::Result {
+        let nodes = &self.structure.terms[nodes.0..nodes.1];
+        for row in 0..rows {
+            let block = row / 4 * 4;
+            let width = (rows - block).min(4);
+            let mut sum = "z".to_owned();
+            for (column, node) in nodes.iter().enumerate() {
+                let weight = weights + block * nodes.len() + column * width + row - block;
+                sum = format!("term(a, c, {weight}, n{node}, {sum})");
+            }
+            match out {
+                Place::Now(node) => writeln!(self.out, "    let n{} = {sum};", node + row)?,
+                Place::Kept(slot) => {
+                    writeln!(self.out, "    row[{}] = a.store({sum});", slot + row)?
+                }
             }
         }
         Ok(())

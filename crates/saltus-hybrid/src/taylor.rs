@@ -27,7 +27,7 @@ pub(crate) fn run<T: Task>(
     while let Some(mut task) = tasks.next() {
         if let Some(leg) = task.begin() {
             let structure = &leg.system.structure;
-            let kernel = Kernel::new(structure, tolerance, order);
+            let kernel = Kernel::new(structure, tolerance, order, options.instructions.level());
             return Ensemble::new(kernel).run(options, (task, leg), tasks, stop, done);
         }
         done(task);

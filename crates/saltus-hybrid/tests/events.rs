@@ -337,6 +337,48 @@ fn lanes_do_not_disturb_each_other() {
 }
 
 #[test]
+fn a_lane_that_chatters_or_never_lands_disturbs_nobody() {
+    // Elastic balls bounce for ever; one loses height in every bounce, one is far above the floor.
+    let starts = |odd: bool| -> Vec<(System, f64)> {
+        let ball = |i: u32| match i {
+            3 if odd => (testing::bouncing_ball(9.81, 0.8, 10.0), 1.0),
+            5 if odd => (testing::bouncing_ball(9.81, 1.0, 10.0), 1e9),
+            _ => (testing::bouncing_ball(9.81, 1.0, 10.0), 1.0 + f64::from(i)),
+        };
+        (0..11).map(ball).collect()
+    };
+    let watch = |balls: Vec<(System, f64)>| {
+        let tasks = balls
+            .into_iter()
+            .enumerate()
+            .map(|(id, (system, height))| Watcher {
+                leg: Some(Leg {
+                    start: system.point(&[0], &[height, 0.0]),
+                    system,
+                    periods: 3,
+                }),
+                id,
+                samples: Vec::new(),
+                status: None,
+            });
+        let mut out = Vec::new();
+        integrate(&options(METHODS[0]), tasks, &AtomicBool::new(false), |t| {
+            out.push(t);
+        })
+        .unwrap();
+        out.sort_by_key(|t| t.id);
+        out
+    };
+    let (good, mixed) = (watch(starts(false)), watch(starts(true)));
+    assert!(matches!(mixed[3].status, Some(Status::Chattering { .. })));
+    assert_eq!(mixed[5].status, Some(Status::Completed));
+    for i in (0..11).filter(|i| ![3, 5].contains(i)) {
+        assert_eq!(good[i].samples, mixed[i].samples, "lane {i}");
+        assert_eq!(good[i].samples.len(), 3);
+    }
+}
+
+#[test]
 fn a_raised_flag_stops_the_run() {
     let system = testing::forced_oscillator(0.05, 1.0, 0.8, 1.0);
     let leg = Leg {

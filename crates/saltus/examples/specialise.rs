@@ -2,14 +2,19 @@
 //! equations of motion, from the root of the repository.
 
 use saltus::model::{Inertia, Setup};
+use saltus::physics::ContactLaw;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    for (name, inertia) in [
-        ("condensed_4_1", Inertia::Condensed),
-        ("slow_manifold_4_1", Inertia::SlowManifold),
+    let paper = (Inertia::Condensed, ContactLaw::ReactionForce);
+    for (name, (inertia, contact)) in [
+        ("condensed_4_1", paper),
+        ("condensed_4_1_gap", (paper.0, ContactLaw::Gap)),
+        ("condensed_4_1_relaxing", (paper.0, ContactLaw::RelaxingLeg)),
+        ("slow_manifold_4_1", (Inertia::SlowManifold, paper.1)),
     ] {
         let setup = Setup {
             inertia,
+            contact,
             ..Setup::dias_del_prado(0.3, 1.0)
         };
         let model = setup.model()?;
