@@ -20,7 +20,8 @@ JSON (--json, and simulate.json in --out):
   energy          balance of each period (J),
                   stored = base + gravity - plate - legs + residual;
                   max_relative_residual is the largest |residual| over
-                  max_turnover, the most energy turned over in one period
+                  max_turnover, the most energy turned over in one period;
+                  in-plane kinetic energy counts for inertia = \"full\" only
   periods, period_s, base_hz, steps, version, study (as resolved)
 
 Folder (--out):
@@ -38,6 +39,8 @@ pub(crate) const SWEEP: &str = "\
 The study needs a [sweep] table; `saltus init paper` shows one. \"up\" runs from
 sweep.from to sweep.to and \"down\" back, each value from the last state of the
 one before; \"restarts\" takes each value anew from each of sweep.starts.
+plate.inertia = \"slow-manifold\" is some 25 times as fast as \"full\",
+\"condensed\" about a hundred times.
 
 JSON (--json, and sweep.json in --out):
   parameter       the key that changes; unit and label say more
@@ -70,15 +73,16 @@ pub(crate) const MAP: &str = "\
 The study needs a [map] table with [map.x] and [map.y]; `saltus init paper`
 shows one. Each pixel runs anew from [start] until the motion has surely
 settled, or for map.transient periods; then the cycle, or map.record periods,
-is recorded. plate.inertia = \"condensed\" is some fifty times faster.
+is recorded. plate.inertia = \"condensed\" is about a hundred times as fast as
+\"full\"; \"slow-manifold\" is some 25 times as fast, and far closer to it.
 
 Layers (map.nc, over y and x, with units; NaN where there is no motion):
   period             of the attractor in forcing periods, 0 if not periodic
                      with a period up to 32
   status             0 periodic, 1 not periodic, 2 undecided (still visibly on
-                     its way to a cycle when the time was up), 3 no model,
-                     4 chattering, 5 not finite, 6 too many steps, 7 ended
-                     otherwise
+                     its way to or from a cycle when the time was up), 3 no
+                     model, 4 chattering, 5 not finite, 6 too many steps,
+                     7 ended otherwise
   contact_ratio      part of the time on the floor (-)
   peak_reaction      largest plate reaction force (body weights)
   peak_acceleration  largest absolute vertical acceleration of the floor under

@@ -369,8 +369,8 @@ const CONTRADICTIONS: &[(&str, &str)] = &[
     ("basins.y.parameter=start.z", "two different ones"),
     ("basins.y.to=1e7", "start.v = 10000000.0"),
     ("jumper=[]", "has no body frequency"),
-    ("plate.modes='0x3'", "from 1 to 64"),
-    ("plate.modes=9x9", "from 1 to 64"),
+    ("plate.modes='0x3'", "from 1 to 400"),
+    ("plate.modes=21x21", "from 1 to 400"),
     ("plate.modes=3by3", "\"3x3\""),
     (
         "plate.modes={ u = [], v = [], w = [] }",

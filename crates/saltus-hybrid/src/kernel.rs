@@ -53,7 +53,12 @@ struct GuardRange {
 }
 
 impl Kernel {
-    pub(crate) fn new(structure: &Arc<Structure>, tolerance: f64, order: usize, level: Level) -> Self {
+    pub(crate) fn new(
+        structure: &Arc<Structure>,
+        tolerance: f64,
+        order: usize,
+        level: Level,
+    ) -> Self {
         let guard = GuardRange {
             low: Pack::default(),
             high: Pack::default(),

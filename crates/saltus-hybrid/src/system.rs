@@ -97,7 +97,7 @@ pub enum BuildError {
         value: f64,
     },
     /// More quantities than an index can name.
-    #[error("the program has {0} quantities: at most 65536 are possible")]
+    #[error("the program has {0} quantities, at most 65536 are possible: take fewer terms")]
     TooLarge(usize),
     /// A period that is not positive.
     #[error("the period is {0}: a positive number is needed")]

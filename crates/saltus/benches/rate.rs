@@ -4,13 +4,37 @@
 use std::time::Instant;
 
 use saltus::hybrid::{Leg, Method, Options, record};
-use saltus::model::{PreparedPlate, Setup};
+use saltus::model::{Model, ModelError, PreparedPlate, Setup};
 use saltus::study::{Control, Pass, Sweep, sweep};
+
+/// Seconds that the diagram takes.
+fn time<F>(
+    diagram: &Sweep,
+    at: F,
+    method: Method,
+    threads: usize,
+) -> Result<f64, Box<dyn std::error::Error>>
+where
+    F: Fn(f64) -> Result<Model, ModelError> + Sync,
+{
+    let options = Options {
+        method,
+        ..Options::default()
+    };
+    let control = Control {
+        options,
+        threads,
+        ..Control::default()
+    };
+    let clock = Instant::now();
+    sweep(diagram, at, &control)?;
+    Ok(clock.elapsed().as_secs_f64())
+}
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let setup = Setup::dias_del_prado(0.3, 1.1);
     let plate = PreparedPlate::new(&setup.plate)?;
-    let at = |zeta: f64| {
+    let at = &|zeta: f64| {
         let mut setup = setup.clone();
         setup.jumpers[0].damping_ratio = zeta;
         setup.model_on(&plate)
@@ -63,24 +87,22 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     ] {
         let method = Method::Taylor { tolerance, order };
         let accuracy = error(&run(method)?.end.point.x);
-        let options = Options {
-            method,
-            ..Options::default()
-        };
-        let control = Control {
-            options,
-            threads: 1,
-            ..Control::default()
-        };
-        let clock = Instant::now();
-        let rows = sweep(&diagram, at, &control)?;
-        let seconds = clock.elapsed().as_secs_f64();
-        let periods = diagram.periods() as f64;
+        let seconds = time(&diagram, at, method, 1)?;
         eprintln!(
-            "tolerance {tolerance:.0e}, order {order}: {:.0} k trajectory-periods/s, error {accuracy:.1e}, {} rows",
-            periods / seconds / 1e3,
-            rows.len()
+            "tolerance {tolerance:.0e}, order {order}: {:.0} k trajectory-periods/s, error {accuracy:.1e}",
+            diagram.periods() as f64 / seconds / 1e3,
         );
     }
+    let method = Method::Taylor {
+        tolerance: 1e-9,
+        order: 14,
+    };
+    let mut best = [f64::INFINITY; 2];
+    for _ in 0..5 {
+        for (threads, best) in (1..).zip(&mut best) {
+            *best = best.min(time(&diagram, at, method, threads)?);
+        }
+    }
+    eprintln!("two threads: {:.2} times one", best[0] / best[1]);
     Ok(())
 }

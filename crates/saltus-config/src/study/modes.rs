@@ -36,10 +36,10 @@ pub struct ModeLists {
 }
 
 impl Modes {
-    /// Most transverse terms: the quartic energy grows with their fourth power.
-    pub const MAX_TRANSVERSE: usize = 64;
+    /// Most transverse terms, as the physics has it.
+    pub const MAX_TRANSVERSE: usize = 400;
     /// Most terms of either in-plane displacement.
-    pub const MAX_IN_PLANE: usize = 1024;
+    pub const MAX_IN_PLANE: usize = 2048;
     /// Largest half-wave number of a term in a list.
     pub const MAX_HALF_WAVES: u32 = 1000;
 }

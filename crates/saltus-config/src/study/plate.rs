@@ -89,7 +89,7 @@ pub enum Inertia {
     #[default]
     Full,
     /// They follow the transverse motion as fast oscillators do, with two terms of their inertia: as
-    /// exact as "full" for most purposes, some fifty times faster; at most 9 w terms.
+    /// exact as "full" for most purposes, some twenty times faster; at most 9 w terms.
     SlowManifold,
     /// They follow the transverse motion statically; only transverse amplitudes and people remain.
     Condensed,
