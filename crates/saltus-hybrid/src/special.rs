@@ -325,7 +325,7 @@ fn guards<A: Arith>(
             match out {
                 Place::Now(node) => writeln!(self.out, "    let n{} = {sum};", node + row)?,
                 Place::Kept(slot) => {
-                    writeln!(self.out, "    row[{}] = a.store({sum});", slot + row)?
+                    writeln!(self.out, "    row[{}] = a.store({sum});", slot + row)?;
                 }
             }
         }

@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     {
         return row(side.parse()?, people.parse()?);
     }
-    let row = |side: u32, people: usize| -> Result<(), Box<dyn std::error::Error>> {
+    let one = |side: u32, people: usize| -> Result<(), Box<dyn std::error::Error>> {
         let mut row = std::process::Command::new(std::env::current_exe()?);
         row.args(["row", &side.to_string(), &people.to_string()]);
         if row.status()?.success() {
@@ -38,15 +38,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             Err("a row failed".into())
         }
     };
-    println!(
+    eprintln!(
         "| w terms | in-plane | people | set-up ms | model ms | steps per period | ms per trajectory-period | MB |"
     );
-    println!("|---|---|---|---|---|---|---|---|");
+    eprintln!("|---|---|---|---|---|---|---|---|");
     for side in [1, 2, 3, 4, 6, 8, 10] {
-        row(side, 1)?;
+        one(side, 1)?;
     }
     for people in [2, 4, 16] {
-        row(2, people)?;
+        one(2, people)?;
     }
     Ok(())
 }
@@ -57,12 +57,12 @@ fn row(side: u32, people: usize) -> Result<(), Box<dyn std::error::Error>> {
     setup.inertia = Inertia::Condensed;
     setup.plate.basis = InPlaneBasis::ShearFree;
     setup.plate.modes = ModeSet::complete(side, side, InPlaneBasis::ShearFree);
-    let first = setup.jumpers[0].clone();
+    let first = setup.jumpers[0];
     setup.jumpers = (0..people)
         .map(|i| Jumper {
             x: first.x + 0.31 * i as f64,
             y: first.y - 0.23 * i as f64,
-            ..first.clone()
+            ..first
         })
         .collect();
     let before = peak();
@@ -99,7 +99,7 @@ fn row(side: u32, people: usize) -> Result<(), Box<dyn std::error::Error>> {
     let clock = Instant::now();
     let ended = settle(&starts, 0, periods, &control)?;
     let each = clock.elapsed().as_secs_f64() * 1e3 / (ended.len() as u64 * periods) as f64;
-    println!(
+    eprintln!(
         "| {} | {} | {people} | {:.2} | {:.2} | {steps:.0} | {each:.4} | {:.0} |",
         setup.plate.modes.w.len(),
         setup.plate.modes.u.len() + setup.plate.modes.v.len(),

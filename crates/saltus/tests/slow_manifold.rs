@@ -1,5 +1,7 @@
 //! The slow manifold against the true full model (17 degrees of freedom), and against the condensed one.
 
+#![allow(clippy::unwrap_used)] // a test may panic
+
 use saltus::hybrid::{Leg, Method, Options, Recording, record};
 use saltus::model::{Inertia, ModelError, Setup};
 use saltus::physics::{InPlaneBasis, ModeSet};

@@ -1,6 +1,8 @@
 //! Straight-line code against the interpreter, instruction sets against each other, lanes against
 //! single runs: all to the bit, on the production equations.
 
+#![allow(clippy::unwrap_used)] // a test may panic
+
 use std::sync::atomic::AtomicBool;
 
 use saltus::hybrid::{
@@ -61,7 +63,7 @@ fn the_straight_line_code_is_that_of_the_equations() {
     }
     // Two people are interpreted.
     let mut two = setups().remove(0);
-    two.jumpers.push(two.jumpers[0].clone());
+    two.jumpers.push(two.jumpers[0]);
     assert!(!two.model().unwrap().system().is_specialised());
 }
 
