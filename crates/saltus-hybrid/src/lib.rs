@@ -8,6 +8,7 @@ mod arith;
 mod cauchy;
 mod compile;
 mod event;
+mod flatten;
 mod kernel;
 mod lane;
 mod parallel;

@@ -1,0 +1,270 @@
+//! A builder's operations with flat indices, and where their results are kept: what the program is
+//! assembled from.
+
+use crate::compile::Place;
+use crate::system::{BuildError, Node, RawOp};
+
+/// Which nodes keep all their orders, and where: the factors of products side by side, as the products
+/// are listed, then states and guards that are no factors.
+pub(crate) struct Slots {
+    pub(crate) count: usize,
+    /// Slots of each node.
+    pub(crate) of: Vec<Vec<u32>>,
+    /// Factor lists that have neighbouring slots.
+    blocks: Vec<(Vec<u16>, usize)>,
+    /// Whether a sum, a derivative, or anything but a product reads the node.
+    is_read: Vec<bool>,
+}
+
+impl Slots {
+    pub(crate) fn new(flat: &Flattener, guards: &[usize], derivative: &[usize]) -> Self {
+        let mut slots = Self {
+            count: 0,
+            of: vec![Vec::new(); flat.nodes],
+            blocks: Vec::new(),
+            is_read: vec![false; flat.nodes],
+        };
+        for op in &flat.ops {
+            match &op.kind {
+                Kind::Linear { terms: nodes, .. } | Kind::Matrix { nodes, .. } => {
+                    nodes
+                        .iter()
+                        .for_each(|&node| slots.is_read[node as usize] = true);
+                }
+                Kind::Squares(factors) => slots.add(factors),
+                Kind::Products(first, second) => {
+                    slots.add(first);
+                    slots.add(second);
+                }
+                Kind::Cubic { y, t, .. } => {
+                    slots.add(y);
+                    slots.add(t);
+                }
+                Kind::Adiabatic { x, sources, .. } => {
+                    slots.add(x);
+                    slots.add(sources);
+                }
+            }
+        }
+        for &node in derivative {
+            slots.is_read[node] = true;
+        }
+        for node in (0..flat.states).chain(guards.iter().copied()) {
+            slots.is_read[node] = true;
+            if slots.of[node].is_empty() {
+                slots.add(&[node as u16]);
+            }
+        }
+        slots
+    }
+
+    /// Neighbouring slots for these nodes, unless they have such.
+    fn add(&mut self, nodes: &[u16]) {
+        if self.blocks.iter().any(|(known, _)| known == nodes) {
+            return;
+        }
+        self.blocks.push((nodes.to_vec(), self.count));
+        for &node in nodes {
+            self.of[node as usize].push(self.count as u32);
+            self.count += 1;
+        }
+    }
+
+    /// The first slot of a list that was added.
+    pub(crate) fn block(&self, nodes: &[u16]) -> usize {
+        let known = self.blocks.iter().find(|(known, _)| known == nodes);
+        known.map_or(usize::MAX, |(_, slot)| *slot)
+    }
+
+    /// A slot of a node that has one.
+    pub(crate) fn first(&self, node: usize) -> usize {
+        self.of[node][0] as usize
+    }
+
+    pub(crate) fn is_kept_only(&self, node: usize) -> bool {
+        !self.is_read[node] && self.of[node].len() == 1
+    }
+
+    /// Where the results of an operation go.
+    pub(crate) fn place(&self, op: &FlatOp) -> Place {
+        let may = matches!(op.kind, Kind::Linear { .. } | Kind::Matrix { .. });
+        let nodes = op.out..op.out + op.count;
+        let neighbours = |(i, node): (usize, usize)| {
+            self.is_kept_only(node) && self.first(node) == self.first(op.out) + i
+        };
+        if may && nodes.enumerate().all(neighbours) {
+            Place::Kept(self.first(op.out))
+        } else {
+            Place::Now(op.out)
+        }
+    }
+}
+
+/// An operation with flat indices.
+pub(crate) struct FlatOp {
+    pub(crate) out: usize,
+    pub(crate) count: usize,
+    pub(crate) kind: Kind,
+}
+
+pub(crate) enum Kind {
+    Linear {
+        constant: usize,
+        terms: Vec<u16>,
+    },
+    Matrix {
+        weights: (usize, usize),
+        nodes: Vec<u16>,
+    },
+    Squares(Vec<u16>),
+    Products(Vec<u16>, Vec<u16>),
+    Adiabatic {
+        /// Its own nodes.
+        x: Vec<u16>,
+        sources: Vec<u16>,
+        damping: usize,
+        responses: Vec<usize>,
+    },
+    Cubic {
+        y: Vec<u16>,
+        /// Nodes that stand for t; they live in their slots only.
+        t: Vec<u16>,
+        added: Vec<u16>,
+        heads: usize,
+        weights: usize,
+        extra: Vec<(usize, usize, usize)>,
+    },
+}
+
+impl Kind {
+    /// Nodes at the end of its output that are never in hand.
+    pub(crate) fn hidden(&self) -> usize {
+        match self {
+            Self::Cubic { t, .. } => t.len(),
+            _ => 0,
+        }
+    }
+}
+
+/// Numbers nodes in the order of the program.
+pub(crate) struct Flattener {
+    states: usize,
+    pub(crate) nodes: usize,
+    pub(crate) ops: Vec<FlatOp>,
+}
+
+impl Flattener {
+    pub(crate) fn new(states: usize) -> Self {
+        Self {
+            states,
+            nodes: states,
+            ops: Vec::new(),
+        }
+    }
+
+    /// Flat index of a node defined so far.
+    pub(crate) fn index(&self, node: Node) -> Result<usize, BuildError> {
+        let index = match node {
+            Node::State(i) if i < self.states => i,
+            Node::Op(i) => self.states + i,
+            Node::State(_) => usize::MAX,
+        };
+        let known = index < self.nodes;
+        known
+            .then_some(index)
+            .ok_or_else(|| BuildError::Undefined(format!("{node:?}")))
+    }
+
+    fn indices<'a>(
+        &self,
+        nodes: impl IntoIterator<Item = &'a Node>,
+    ) -> Result<Vec<u16>, BuildError> {
+        nodes
+            .into_iter()
+            .map(|&node| self.index(node).map(|i| i as u16))
+            .collect()
+    }
+
+    pub(crate) fn push(&mut self, op: &RawOp) -> Result<(), BuildError> {
+        let kind = match op {
+            RawOp::Linear { constant, terms } => Kind::Linear {
+                constant: *constant,
+                terms: self.indices(terms)?,
+            },
+            RawOp::Matrix { weights, nodes } => Kind::Matrix {
+                weights: *weights,
+                nodes: self.indices(nodes)?,
+            },
+            RawOp::Squares(list) => Kind::Squares(self.indices(list)?),
+            RawOp::Products(list) => Kind::Products(
+                self.indices(list.iter().map(|(a, _)| a))?,
+                self.indices(list.iter().map(|(_, b)| b))?,
+            ),
+            RawOp::Adiabatic {
+                count,
+                sources,
+                damping,
+                responses,
+            } => Kind::Adiabatic {
+                x: (self.nodes..self.nodes + count).map(|i| i as u16).collect(),
+                // They come later in the program: their derivatives are those of the last round.
+                sources: sources
+                    .iter()
+                    .map(|&node| match node {
+                        Node::State(i) => i as u16,
+                        Node::Op(i) => (self.states + i) as u16,
+                    })
+                    .collect(),
+                damping: *damping,
+                responses: responses.clone(),
+            },
+            RawOp::Cubic {
+                y,
+                added,
+                heads,
+                weights,
+                extra,
+            } => {
+                let first = self.nodes + 2 * y.len();
+                Kind::Cubic {
+                    y: self.indices(y)?,
+                    t: (first..first + y.len()).map(|i| i as u16).collect(),
+                    added: self.indices(added)?,
+                    heads: *heads,
+                    weights: *weights,
+                    extra: extra.clone(),
+                }
+            }
+        };
+        let (out, count) = (self.nodes, op.nodes());
+        self.nodes += count;
+        if count > 0 {
+            self.ops.push(FlatOp { out, count, kind });
+        }
+        Ok(())
+    }
+
+    /// For each operation whether these nodes depend on it.
+    pub(crate) fn needed_by(&self, guards: &[usize]) -> Vec<bool> {
+        let mut nodes = vec![false; self.nodes];
+        guards.iter().for_each(|&g| nodes[g] = true);
+        let mut needed = vec![false; self.ops.len()];
+        for (needed, op) in needed.iter_mut().zip(&self.ops).rev() {
+            *needed = nodes[op.out..op.out + op.count].contains(&true);
+            if *needed {
+                let inputs: [&[u16]; 2] = match &op.kind {
+                    Kind::Linear { terms, .. } => [terms, &[]],
+                    Kind::Matrix { nodes, .. } => [nodes, &[]],
+                    Kind::Squares(factors) => [factors, &[]],
+                    Kind::Products(first, second) => [first, second],
+                    Kind::Cubic { y, added, .. } => [y, added],
+                    Kind::Adiabatic { .. } => [&[], &[]],
+                };
+                for &input in inputs.into_iter().flatten() {
+                    nodes[input as usize] = true;
+                }
+            }
+        }
+        needed
+    }
+}
