@@ -476,3 +476,19 @@ fn few_terms_are_cheaper_without_harmonics() {
     let work = e.harmonics.work(&plate.modes.w);
     assert!(work.direct < work.harmonics, "{work:?}");
 }
+
+#[test]
+fn more_terms_than_a_program_holds_are_refused_by_name() {
+    use saltus::model::{Inertia, Setup};
+    let mut setup = Setup {
+        inertia: Inertia::Condensed,
+        ..Setup::dias_del_prado(0.3, 1.0)
+    };
+    setup.plate.basis = InPlaneBasis::ShearFree;
+    setup.plate.modes = ModeSet::complete(13, 13, InPlaneBasis::ShearFree);
+    let error = setup.model().expect_err("169 terms").to_string();
+    assert!(
+        error.contains("plate.modes with 169 w terms") && error.contains("65536"),
+        "{error}"
+    );
+}

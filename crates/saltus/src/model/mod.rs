@@ -101,6 +101,17 @@ pub enum ModelError {
         /// Most possible.
         limit: usize,
     },
+    /// More terms and people than a program can hold.
+    #[error(
+        "plate.modes with {terms} w terms: the equations of motion have {quantities} quantities and \
+         at most 65536 are possible; take fewer terms (some 140)"
+    )]
+    TooLarge {
+        /// Transverse terms of the plate.
+        terms: usize,
+        /// Quantities of the program.
+        quantities: usize,
+    },
     /// Numbers that combine to something no machine can hold.
     #[error("the equations of motion are out of range ({0}); are the numbers in SI units?")]
     Range(#[from] BuildError),
@@ -295,7 +306,16 @@ impl Model {
             jumpers: setup.jumpers.len(),
             legs: setup.contact == ContactLaw::RelaxingLeg,
         };
-        let equations = equations::build(setup, plate, &scales, layout, with_energy)?;
+        let equations =
+            equations::build(setup, plate, &scales, layout, with_energy).map_err(|error| {
+                match error {
+                    BuildError::TooLarge(quantities) => ModelError::TooLarge {
+                        terms: layout.transverse,
+                        quantities,
+                    },
+                    other => other.into(),
+                }
+            })?;
         Ok(Self {
             setup: setup.clone(),
             plate: Arc::clone(plate),

@@ -29,7 +29,7 @@ pub(super) fn text(plane: &Plane, report: &Report) -> String {
         // writing to a string cannot fail
         let _ = writeln!(
             text,
-            "  {:>3}  {:>5.1} %  {}, contact {}, first from [{}, {}]",
+            "  {:>3}  {:>5.1} %  {}, contact {}, first from [{:.4}, {:.4}]",
             attractor.number,
             100.0 * attractor.share,
             attractor.name(),
