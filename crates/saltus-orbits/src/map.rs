@@ -1,0 +1,89 @@
+//! The hinge between whatever moves and the questions asked of it: a map that depends on parameters.
+
+/// Derivatives and other dense matrices.
+pub type Matrix = faer::Mat<f64>;
+
+/// Where a trajectory is at the section: modes and state together; neither means anything alone.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Place {
+    /// Mode of each unit that switches; empty for a map without any.
+    pub modes: Vec<usize>,
+    /// State, of length [`Family::dimension`].
+    pub x: Vec<f64>,
+}
+
+/// One application of the map that is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shot<'a> {
+    /// Value of each parameter.
+    pub parameters: &'a [f64],
+    /// Where to begin.
+    pub start: &'a Place,
+    /// Whether the derivative and what happens on the way are wanted too.
+    pub derivative: bool,
+}
+
+/// What the map makes of a place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    /// Where it leads.
+    pub place: Place,
+    /// d(image)/d(start), n x n, if it was asked for.
+    pub derivative: Option<Matrix>,
+    /// Switches on the way, in time order, if the derivative was asked for.
+    pub crossings: Vec<Crossing>,
+    /// Where a guard came to an extremum without a switch, if the derivative was asked for.
+    pub touches: Vec<Touch>,
+}
+
+/// A switch on the way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Which unit.
+    pub unit: usize,
+    /// The mode left.
+    pub from: usize,
+    /// The mode entered.
+    pub to: usize,
+    /// When, as a part of the way from start to image, in (0, 1].
+    pub at: f64,
+}
+
+/// An extremum of a guard that stayed on its side: at grazing its value is zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// Which unit.
+    pub unit: usize,
+    /// The mode it was in.
+    pub mode: usize,
+    /// Which of the guards of that mode.
+    pub guard: usize,
+    /// Value of the guard there; positive, since the mode lasts.
+    pub value: f64,
+    /// When, as a part of the way from start to image.
+    pub at: f64,
+}
+
+/// Why there is no image.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Lost {
+    /// No map at these parameters, with the reason.
+    #[error("{0}")]
+    NoMap(String),
+    /// The way ended before the image, with the reason.
+    #[error("{0}")]
+    Ended(String),
+    /// Stopped from outside.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+/// A map R^n -> R^n that depends on parameters, such as a forced flow over one period.
+pub trait Family: Sync {
+    /// n.
+    fn dimension(&self) -> usize;
+
+    /// The image of each shot, in their order. Many at once cost less than one by one.
+    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>>;
+}
