@@ -3,6 +3,7 @@
 use crate::adiabatic::Adiabatic;
 use crate::flatten::{Flattener, Kind, Slots};
 use crate::system::{BuildError, Node, RawOp, Transition};
+use crate::tangent::Tangents;
 
 /// What a step of the program computes. Nodes are flat indices: states first, then operations.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -128,8 +129,8 @@ pub(crate) struct Structure {
     /// Nodes of the terms of all sums.
     pub(crate) terms: Vec<u16>,
     pub(crate) cubics: Vec<Cubic>,
-    /// What follows the rest adiabatically, if anything does.
-    pub(crate) adiabatic: Option<Adiabatic>,
+    /// What follows the rest adiabatically, if anything does; several with tangents.
+    pub(crate) adiabatic: Vec<Adiabatic>,
     /// (node, slot) of what each step keeps.
     pub(crate) keeps: Vec<(u32, u32)>,
     /// (node, slot) of the nodes that are in a slot only.
@@ -152,6 +153,8 @@ pub(crate) struct Structure {
     pub(crate) switched: Vec<(usize, usize, usize)>,
     /// States that hold cos and sin of the drive, if it is driven.
     pub(crate) drive: Option<(usize, usize)>,
+    /// Columns of the tangent flow, if it has any.
+    pub(crate) tangents: Option<Tangents>,
 }
 
 /// How a state moves on: the node that is its rate, and its slot.
@@ -228,7 +231,7 @@ impl Structure {
     /// Order of the series that values are computed with: 0 unless derivatives are needed for them.
     pub(crate) fn order_of_values(&self) -> usize {
         self.adiabatic
-            .as_ref()
+            .first()
             .map_or(0, |x| 2 * x.corrections() + 1)
     }
 
@@ -348,14 +351,15 @@ impl Structure {
                 } => {
                     self.finish(pending.take());
                     let size = x.len() * sources.len();
-                    if self.adiabatic.is_none() {
+                    let slot = slots.block(x);
+                    if self.adiabatic.iter().all(|known| known.out != slot) {
                         let damping = self.stream(*damping..damping + 1);
                         let responses = responses
                             .iter()
                             .map(|&first| self.stream(first..first + size))
                             .collect();
-                        self.adiabatic = Some(Adiabatic {
-                            out: slots.block(x),
+                        self.adiabatic.push(Adiabatic {
+                            out: slot,
                             count: x.len(),
                             source: slots.block(sources),
                             sources: sources.len(),
@@ -363,11 +367,7 @@ impl Structure {
                             responses,
                         });
                     }
-                    Op::Recall {
-                        out,
-                        slot: slots.block(x),
-                        count,
-                    }
+                    Op::Recall { out, slot, count }
                 }
                 Kind::Cubic {
                     y,

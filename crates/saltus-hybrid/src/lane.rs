@@ -2,6 +2,7 @@
 
 use crate::event::{Firing, Guarded, Touches};
 use crate::run::{End, IntegrateError, Leg, Options, Sample, Status, Switch, SwitchKind, Task};
+use crate::saltation;
 use crate::system::{Evaluator, Point, System};
 
 /// A trajectory under way.
@@ -49,7 +50,7 @@ impl<T: Task> Lane<T> {
             time: 0.0,
             period: 0,
             periods: leg.periods,
-            evaluator: Evaluator::new(&leg.system),
+            evaluator: Evaluator::new(&leg.system.base()),
             dwell: structure
                 .units
                 .iter()
@@ -169,7 +170,11 @@ impl<T: Task> Lane<T> {
             kind,
             x,
         });
-        if !watch.resets.is_empty() {
+        if let Some(tangents) = &structure.tangents {
+            let watch = &tangents.base.units[unit][from][firing.watch];
+            let (evaluator, modes) = (&mut self.evaluator, &self.guarded.modes);
+            saltation::cross(evaluator, tangents, watch, &firing, modes, x);
+        } else if !watch.resets.is_empty() {
             let nodes = self.evaluator.nodes(&self.guarded.modes, x);
             for &(state, node) in &watch.resets {
                 x[state] = nodes[node];
@@ -199,6 +204,10 @@ impl<T: Task> Lane<T> {
             dwell: &self.dwell,
         };
         let go_on = self.task.sample(&sample);
+        let columns = self.system.columns_mut(x);
+        if !columns.is_empty() {
+            self.task.tangents(columns);
+        }
         self.dwell.iter_mut().for_each(|d| d.fill(0.0));
         if go_on && !self.is_over() {
             Next::Go

@@ -16,16 +16,18 @@ mod polynomial;
 mod record;
 mod rk4;
 mod run;
+mod saltation;
 mod series;
 mod special;
 mod system;
+mod tangent;
 mod taylor;
 pub mod testing;
 
 pub use parallel::{integrate_all, integrate_groups, integrate_stream};
 pub use record::{RecordedSwitch, Recording, record};
 pub use run::{
-    End, Instructions, IntegrateError, Leg, Method, Options, Sample, Status, Step, Switch,
+    End, Instructions, IntegrateError, Leg, Method, Minimum, Options, Sample, Status, Step, Switch,
     SwitchKind, Task, integrate,
 };
 pub use system::{

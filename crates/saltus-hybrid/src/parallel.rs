@@ -162,6 +162,9 @@ impl<T: Task> Task for Numbered<T> {
     fn sample(&mut self, sample: &crate::Sample<'_>) -> bool {
         self.task.sample(sample)
     }
+    fn tangents(&mut self, columns: &mut [f64]) {
+        self.task.tangents(columns);
+    }
     fn switch(&mut self, switch: &crate::Switch<'_>) {
         self.task.switch(switch);
     }

@@ -228,6 +228,27 @@ pub(crate) fn first_descent(power: &[f64], table: &BernsteinTable) -> Descent {
     out
 }
 
+/// Pieces that [`minima`] looks at.
+const PIECES: usize = 8;
+
+/// Places in (0, 1] where the polynomial falls and then rises, and its values there: as many as show between
+/// [`PIECES`] equal pieces.
+pub(crate) fn minima(power: &[f64]) -> impl Iterator<Item = (f64, f64)> {
+    let mut fall = [0.0; MAX_DEGREE + 1];
+    for (k, a) in power.iter().enumerate().skip(1) {
+        fall[k - 1] = -(k as f64) * a;
+    }
+    (0..PIECES).filter_map(move |piece| {
+        let end = |piece: usize| piece as f64 / PIECES as f64;
+        let (lo, hi) = (end(piece), end(piece + 1));
+        let [first, last] = [lo, hi].map(|x| value_and_slope(&fall, x).0);
+        (first > 0.0 && last <= 0.0).then(|| {
+            let at = refine(&fall, lo, hi, lo + (hi - lo) * first / (first - last));
+            (at, value_and_slope(power, at).0)
+        })
+    })
+}
+
 impl Descent {
     /// Counts a tangency inside the step, once.
     fn note_touch(&mut self, at: f64) {
@@ -335,5 +356,20 @@ mod tests {
                 other => proptest::prop_assert!(false, "{:?}", other),
             }
         }
+    }
+
+    #[test]
+    fn minima_are_where_it_falls_and_then_rises() {
+        // (x - 0.3)^2 (x - 0.8)^2 + 0.01: minima at both, a maximum between
+        let squared = with_roots(&[0.3, 0.3, 0.8, 0.8], 1.0);
+        let mut p = squared.clone();
+        p[0] += 0.01;
+        let found: Vec<_> = minima(&p).collect();
+        assert_eq!(found.len(), 2);
+        for ((at, value), expected) in found.into_iter().zip([0.3, 0.8]) {
+            assert!((at - expected).abs() < 1e-7 && (value - 0.01).abs() < 1e-14);
+        }
+        assert_eq!(minima(&[1.0, 1.0]).count(), 0);
+        assert_eq!(minima(&[1.0, -1.0]).count(), 0);
     }
 }

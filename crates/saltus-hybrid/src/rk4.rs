@@ -85,6 +85,7 @@ fn run_leg<T: Task>(
                     modes,
                     degree: HERMITE,
                     power: &dense,
+                    structure: &structure,
                 });
             }
             lane.guarded.advanced(HERMITE, |guard, power| {
@@ -235,11 +236,11 @@ impl Stepper {
         Some(Firing { theta, ..found })
     }
 
-    /// Cubics in time of all states over a step of length `h`.
+    /// Cubics in time of all states and guards over a step of length `h`.
     fn interpolate(&self, structure: &Structure, h: f64, out: &mut Vec<f64>) {
         out.clear();
-        for state in 0..structure.states {
-            let mut power = self.cubic(structure.state_slots[state], h);
+        for &slot in structure.state_slots.iter().chain(&structure.guard_slots) {
+            let mut power = self.cubic(slot, h);
             let mut scale = 1.0;
             for a in &mut power {
                 *a *= scale;

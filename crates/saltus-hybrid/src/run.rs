@@ -4,6 +4,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use fearless_simd::Level;
 
+use crate::compile::Structure;
+use crate::polynomial::{MAX_DEGREE, minima};
 use crate::rk4;
 use crate::system::{Mode, Point, System};
 use crate::taylor;
@@ -157,8 +159,22 @@ pub struct Step<'a> {
     /// Mode of each unit throughout the step.
     pub modes: &'a [Mode],
     pub(crate) degree: usize,
-    /// Power coefficients in time since the start, state by state.
+    /// Power coefficients in time since the start, state by state and then guard by guard.
     pub(crate) power: &'a [f64],
+    pub(crate) structure: &'a Structure,
+}
+
+/// Where a guard in force came near to zero and turned back.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Minimum {
+    /// Which unit.
+    pub unit: usize,
+    /// Which transition of its present mode.
+    pub transition: usize,
+    /// When, since the start of the step.
+    pub since: f64,
+    /// Value of the guard there, positive while the mode lasts.
+    pub value: f64,
 }
 
 impl Step<'_> {
@@ -167,6 +183,32 @@ impl Step<'_> {
         for (out, power) in out.iter_mut().zip(self.power.chunks_exact(self.degree + 1)) {
             *out = power.iter().rev().fold(0.0, |sum, &a| sum * since + a);
         }
+    }
+
+    /// The minima of the guards in force within the step. One that reaches zero is a grazing.
+    pub fn minima(&self) -> Vec<Minimum> {
+        let mut out = Vec::new();
+        for (unit, modes) in self.structure.units.iter().enumerate() {
+            for (transition, watch) in modes[self.modes[unit]].iter().enumerate() {
+                let first = (self.structure.states + watch.guard) * (self.degree + 1);
+                let mut scale = watch.sign;
+                let mut power = [0.0; MAX_DEGREE + 1];
+                for (out, a) in power
+                    .iter_mut()
+                    .zip(&self.power[first..=first + self.degree])
+                {
+                    *out = a * scale;
+                    scale *= self.length;
+                }
+                out.extend(minima(&power).map(|(theta, value)| Minimum {
+                    unit,
+                    transition,
+                    since: theta * self.length,
+                    value,
+                }));
+            }
+        }
+        out
     }
 }
 
@@ -240,6 +282,11 @@ pub trait Task: Send {
     fn begin(&mut self) -> Option<Leg>;
     /// Called at the end of each period; return `false` to end the leg here.
     fn sample(&mut self, sample: &Sample<'_>) -> bool;
+    /// Called after [`Self::sample`] with the tangent columns, one after the other, if the system has
+    /// any; they may be changed, such as to be kept apart from each other.
+    fn tangents(&mut self, columns: &mut [f64]) {
+        let _ = columns;
+    }
     /// Called at each switch and tangency, in time order.
     fn switch(&mut self, switch: &Switch<'_>) {
         let _ = switch;

@@ -45,7 +45,7 @@ impl<C: Copy + Default> Series<C> {
             kept: vec![C::default(); structure.slots * (order + 1)],
             scratch: structure
                 .adiabatic
-                .as_ref()
+                .first()
                 .map_or_else(Vec::new, |x| vec![C::default(); x.scratch(order)]),
         }
     }
@@ -376,16 +376,19 @@ pub(crate) fn expand<A: Arith>(
     series: &mut Series<A::Cell>,
 ) {
     let (order, stride) = (series.order, series.slots);
-    let adiabatic = structure.adiabatic.as_ref();
+    let rounds = structure
+        .adiabatic
+        .first()
+        .map_or(0, Adiabatic::corrections);
     // One call only, in a loop: all of the program is compiled into it.
-    for terms in 0..=adiabatic.map_or(0, Adiabatic::corrections) {
+    for terms in 0..=rounds {
         let (kept, scratch) = (&mut series.kept, &mut series.scratch);
-        match adiabatic {
-            Some(adiabatic) if terms > 0 => {
+        for adiabatic in &structure.adiabatic {
+            if terms > 0 {
                 adiabatic.update(arith, stream, kept, stride, scratch, order, terms);
+            } else {
+                adiabatic.clear(kept, stride);
             }
-            Some(adiabatic) => adiabatic.clear(kept, stride),
-            None => {}
         }
         expand_once(arith, structure, shape, stream, series);
     }
@@ -444,7 +447,7 @@ fn expand_in<A: Arith, const M: usize>(
 
 /// Values of all operations, given those of the states (order 0 of `series`).
 pub(crate) fn values(structure: &Structure, stream: &[f64], series: &mut Series<f64>) {
-    if structure.adiabatic.is_some() {
+    if !structure.adiabatic.is_empty() {
         expand(Scalar, structure, None, stream, series);
     }
     series.open(structure);
@@ -456,5 +459,27 @@ pub(crate) fn values(structure: &Structure, stream: &[f64], series: &mut Series<
     }
     for &(node, slot) in &structure.kept_only {
         series.now[node as usize] = series.kept[slot as usize];
+    }
+}
+
+/// Derivatives of all operations while the states change at the rates `dx`, after [`values`]. Adiabatic
+/// nodes change as they do in time.
+pub(crate) fn along(structure: &Structure, stream: &[f64], dx: &[f64], series: &mut Series<f64>) {
+    let stride = series.slots;
+    for (state, &rate) in dx.iter().enumerate() {
+        series.now[state] = rate;
+        series.kept[stride + structure.state_slots[state]] = rate;
+    }
+    for &(state, slot) in &structure.state_copies {
+        series.kept[stride + slot] = dx[state];
+    }
+    let program = &structure.program;
+    if series.now.len() == FEW {
+        run::<_, FEW>(Scalar, structure, program, stream, series, 1);
+    } else {
+        run::<_, MAX_NODES>(Scalar, structure, program, stream, series, 1);
+    }
+    for &(node, slot) in &structure.kept_only {
+        series.now[node as usize] = series.kept[stride + slot as usize];
     }
 }

@@ -30,6 +30,9 @@ macro_rules! shapes {
         impl Shape {
             /// The shape of a program, if it is one of these.
             pub(crate) fn of(structure: &Structure) -> Option<Self> {
+                if structure.tangents.is_some() {
+                    return None;
+                }
                 let key = key(structure);
                 $(if key == $name::KEY { return Some(Self::$name); })*
                 None

@@ -111,6 +111,8 @@ pub struct System {
     pub(crate) coefficients: Arc<[f64]>,
     pub(crate) tables: Arc<[f64]>,
     pub(crate) period: f64,
+    /// What it was built from, but for the coefficients.
+    pub(crate) plan: Arc<SystemBuilder>,
 }
 
 impl System {
@@ -226,7 +228,7 @@ impl Evaluator {
         Self {
             coefficients: system.stream(&modes),
             modes,
-            series: Series::new(&system.structure, 0),
+            series: Series::new(&system.structure, 1),
             system: system.clone(),
         }
     }
@@ -242,6 +244,14 @@ impl Evaluator {
             *self.series.value(structure.state_slots[i]) = value;
         }
         crate::series::values(structure, &self.coefficients, &mut self.series);
+        self.series.now()
+    }
+
+    /// Derivative of every node while the states change at the rates `dx`, at the point that
+    /// [`Self::nodes`] was called for last. What follows adiabatically changes as it does in time.
+    pub fn along(&mut self, dx: &[f64]) -> &[f64] {
+        let structure = &self.system.structure;
+        crate::series::along(structure, &self.coefficients, dx, &mut self.series);
         self.series.now()
     }
 }
@@ -264,14 +274,14 @@ impl Evaluator {
 /// ```
 #[derive(Clone, Debug)]
 pub struct SystemBuilder {
-    declared: usize,
+    pub(crate) declared: usize,
     drive: Option<f64>,
-    quadratures: usize,
-    derivative: Vec<Option<Node>>,
-    ops: Vec<RawOp>,
+    pub(crate) quadratures: usize,
+    pub(crate) derivative: Vec<Option<Node>>,
+    pub(crate) ops: Vec<RawOp>,
     /// Nodes that the operations make.
-    nodes: usize,
-    coefficients: Vec<f64>,
+    pub(crate) nodes: usize,
+    pub(crate) coefficients: Vec<f64>,
     switched: Vec<(usize, usize, Vec<f64>)>,
     units: Vec<Vec<Vec<Transition>>>,
 }
@@ -458,6 +468,11 @@ impl SystemBuilder {
     pub fn reserve_adiabatic(&mut self, count: usize) -> Vec<Node> {
         let other = |op: &RawOp| matches!(op, RawOp::Adiabatic { .. });
         assert!(!self.ops.iter().any(other));
+        self.append_adiabatic(count)
+    }
+
+    /// As [`Self::reserve_adiabatic`], beside others.
+    pub(crate) fn append_adiabatic(&mut self, count: usize) -> Vec<Node> {
         let first = self.nodes;
         self.push(RawOp::Adiabatic {
             count,
@@ -510,6 +525,53 @@ impl SystemBuilder {
         }
     }
 
+    /// The rows of [`Self::push_weights`], from these coefficients.
+    fn rows_of(weights: &[f64], columns: usize) -> Vec<Vec<f64>> {
+        let mut rows = Vec::new();
+        for block in weights.chunks(4 * columns) {
+            let height = block.len() / columns;
+            let row = |i: usize| block.iter().skip(i).step_by(height).copied().collect();
+            rows.extend((0..height).map(row));
+        }
+        rows
+    }
+
+    /// The rows of a [`RawOp::Matrix`].
+    pub(crate) fn rows(
+        coefficients: &[f64],
+        weights: (usize, usize),
+        columns: usize,
+    ) -> Vec<Vec<f64>> {
+        Self::rows_of(&coefficients[weights.0..weights.1], columns)
+    }
+
+    /// The matrix A of a [`RawOp::Cubic`].
+    pub(crate) fn cubic_matrix(coefficients: &[f64], op: &RawOp) -> Vec<Vec<f64>> {
+        let RawOp::Cubic {
+            y,
+            heads,
+            weights,
+            extra,
+            ..
+        } = op
+        else {
+            return Vec::new();
+        };
+        let (count, heads) = (y.len(), *heads);
+        let middle = weights + heads * count;
+        let mut a = Self::rows_of(&coefficients[*weights..middle], count);
+        let mut rest = Self::rows_of(
+            &coefficients[middle..middle + (count - heads) * heads],
+            heads,
+        );
+        rest.iter_mut().for_each(|row| row.resize(count, 0.0));
+        a.append(&mut rest);
+        for &(row, column, weight) in extra {
+            a[row][column] = coefficients[weight];
+        }
+        a
+    }
+
     /// Products of two nodes each. Many at once are faster than one by one.
     pub fn products(&mut self, pairs: &[(Node, Node)]) -> Vec<Node> {
         let first = self.nodes;
@@ -531,6 +593,16 @@ impl SystemBuilder {
             self.switched.push((first + i, unit.0, values));
         }
         out
+    }
+
+    /// Lets a coefficient follow the modes as another one does, times `factor`.
+    pub(crate) fn switch_likewise(&mut self, other: usize, coefficient: usize, factor: f64) {
+        let known = self.switched.iter().find(|(at, ..)| *at == other);
+        let scaled = known.map(|(_, unit, values)| {
+            let values = values.iter().map(|value| factor * value).collect();
+            (coefficient, *unit, values)
+        });
+        self.switched.extend(scaled);
     }
 
     /// Sets x' of state `index`.
@@ -573,7 +645,7 @@ impl SystemBuilder {
     ///
     /// # Errors
     /// [`BuildError`] names the part that is missing or wrong.
-    pub fn build(self, period: f64) -> Result<System, BuildError> {
+    pub fn build(mut self, period: f64) -> Result<System, BuildError> {
         let period = self
             .drive
             .map_or(period, |omega| std::f64::consts::TAU / omega);
@@ -616,9 +688,10 @@ impl SystemBuilder {
         }
         Ok(System {
             structure: Arc::new(structure),
-            coefficients: self.coefficients.into(),
+            coefficients: std::mem::take(&mut self.coefficients).into(),
             tables: tables.into(),
             period,
+            plan: Arc::new(self),
         })
     }
 }

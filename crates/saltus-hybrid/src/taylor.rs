@@ -172,8 +172,8 @@ impl<T: Task> Ensemble<T> {
         if length > 0.0 {
             if lane.wants_steps {
                 self.dense.clear();
-                for &state in &structure.state_slots {
-                    self.dense.extend(kernel.power(slot, state));
+                for &node in structure.state_slots.iter().chain(&structure.guard_slots) {
+                    self.dense.extend(kernel.power(slot, node));
                 }
                 let step = Step {
                     period: lane.period,
@@ -182,6 +182,7 @@ impl<T: Task> Ensemble<T> {
                     modes: &lane.guarded.modes,
                     degree: kernel.order,
                     power: &self.dense,
+                    structure,
                 };
                 lane.task.step(&step);
             }

@@ -4,6 +4,8 @@
 //! Everything here asks a [`Family`] of maps; nothing knows whether that is a forced flow seen once per
 //! period, which may switch on the way, or two lines of algebra.
 
+mod flow;
 mod map;
 
+pub use flow::Stroboscopic;
 pub use map::{Crossing, Family, Image, Lost, Matrix, Place, Shot, Touch};

@@ -1,0 +1,281 @@
+//! The variational equations of a program, as more of the same program.
+//!
+//! A column d of the tangent flow obeys d' = Df(x) d. The derivative of a sum is a sum and that of a product
+//! two products, so the equations of any number of columns are appended to a program, operation by
+//! operation. Columns ride along as quadratures do, outside the error control: the trajectory is the same
+//! to the bit with and without them. The drive keeps its phase, so a column has as many components as there
+//! are declared states.
+
+use std::sync::Arc;
+
+use crate::compile::Structure;
+use crate::system::{BuildError, Node, RawOp, System, SystemBuilder};
+
+/// What a program with tangent columns knows about them. They are the last states, column by column.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Tangents {
+    /// The program without them; its coefficients are the first ones of the program with them.
+    pub(crate) base: Arc<Structure>,
+    /// First state of the first column.
+    pub(crate) first: usize,
+    /// Length of a column.
+    pub(crate) size: usize,
+}
+
+impl System {
+    /// This system with `columns` columns of its tangent flow beside the state; they are read and set
+    /// by [`Self::columns`] and [`Self::columns_mut`]. A switch multiplies them by its saltation matrix
+    /// (Müller, Chaos, Solitons & Fractals 5 (1995) 1671).
+    ///
+    /// # Errors
+    /// [`BuildError::TooLarge`] for more columns than a program has room for.
+    pub fn with_tangents(&self, columns: usize) -> Result<Self, BuildError> {
+        let plan = &self.plan;
+        let mut b = SystemBuilder::clone(plan);
+        b.coefficients = self.coefficients.to_vec();
+        let (first, size) = (plan.derivative.len(), plan.declared);
+        b.derivative
+            .extend(std::iter::repeat_n(None, columns * size));
+        b.quadratures += columns * size;
+        for column in 0..columns {
+            let at = first + column * size;
+            let mut slopes = Slopes::new(&mut b, plan, at);
+            slopes.all();
+            for state in 0..size {
+                let rate = plan.derivative[state].ok_or(BuildError::NoDerivative(state))?;
+                let slope = slopes.node(rate);
+                slopes.b.derivative(at + state, slope);
+            }
+        }
+        let mut system = b.build(self.period)?;
+        Arc::make_mut(&mut system.structure).tangents = Some(Tangents {
+            base: Arc::clone(&self.structure),
+            first,
+            size,
+        });
+        Ok(system)
+    }
+
+    /// The tangent columns in a state, one after the other, each as long as the list of declared states;
+    /// empty for a system without.
+    pub fn columns<'a>(&self, x: &'a [f64]) -> &'a [f64] {
+        let tangents = self.structure.tangents.as_ref();
+        tangents.map_or(&[], |tangents| &x[tangents.first..])
+    }
+
+    /// The same, to be set before a run.
+    pub fn columns_mut<'a>(&self, x: &'a mut [f64]) -> &'a mut [f64] {
+        let tangents = self.structure.tangents.as_ref();
+        tangents.map_or(&mut [], |tangents| &mut x[tangents.first..])
+    }
+
+    /// The system without tangents.
+    pub(crate) fn base(&self) -> Self {
+        let mut base = self.clone();
+        if let Some(tangents) = &self.structure.tangents {
+            base.structure = Arc::clone(&tangents.base);
+        }
+        base
+    }
+}
+
+/// The derivative of a node along a column: a sum of scaled nodes, empty where it vanishes.
+type Slope = Vec<(f64, Node)>;
+
+/// One column on its way through the program.
+struct Slopes<'a> {
+    b: &'a mut SystemBuilder,
+    plan: &'a SystemBuilder,
+    states: Vec<Slope>,
+    ops: Vec<Slope>,
+}
+
+impl<'a> Slopes<'a> {
+    /// A column whose states begin at `first`.
+    fn new(b: &'a mut SystemBuilder, plan: &'a SystemBuilder, first: usize) -> Self {
+        let mut states = vec![Slope::new(); plan.derivative.len()];
+        for (i, slope) in states[..plan.declared].iter_mut().enumerate() {
+            slope.push((1.0, Node::State(first + i)));
+        }
+        Self {
+            b,
+            plan,
+            states,
+            ops: Vec::with_capacity(plan.nodes),
+        }
+    }
+
+    fn of(&self, node: Node) -> Slope {
+        match node {
+            Node::State(i) => self.states[i].clone(),
+            Node::Op(i) => self.ops[i].clone(),
+        }
+    }
+
+    fn of_all(&self, nodes: &[Node]) -> Vec<Slope> {
+        nodes.iter().map(|&node| self.of(node)).collect()
+    }
+
+    /// The slope of a node as a node.
+    fn node(&mut self, node: Node) -> Node {
+        match self.of(node)[..] {
+            [(1.0, node)] => node,
+            ref terms => self.b.linear(0.0, terms),
+        }
+    }
+
+    /// Differentiates the whole program.
+    fn all(&mut self) {
+        let mut reserved = None;
+        for op in &self.plan.ops {
+            let slopes = match op {
+                RawOp::Linear { constant, terms } => vec![self.sum(*constant, terms)],
+                RawOp::Matrix { weights, nodes } => {
+                    let rows = SystemBuilder::rows(&self.b.coefficients, *weights, nodes.len());
+                    let slopes = self.of_all(nodes);
+                    self.times(&rows, &slopes)
+                }
+                RawOp::Squares(nodes) => {
+                    let slopes = self.of_all(nodes);
+                    self.squares(nodes, &slopes)
+                }
+                RawOp::Products(pairs) => {
+                    let there = pairs.iter().map(|&(a, b)| (a, self.of(b)));
+                    let back = pairs.iter().map(|&(a, b)| (b, self.of(a)));
+                    let both = there.chain(back).collect::<Vec<_>>();
+                    halves(self.products(&both))
+                }
+                RawOp::Cubic { y, added, .. } => self.cubic(op, y, added),
+                RawOp::Adiabatic { count, .. } => {
+                    reserved = Some((op, self.b.ops.len()));
+                    let nodes = self.b.append_adiabatic(*count);
+                    nodes.into_iter().map(|node| vec![(1.0, node)]).collect()
+                }
+            };
+            self.ops.extend(slopes);
+        }
+        if let Some((op, place)) = reserved {
+            self.define_adiabatic(op, place);
+        }
+    }
+
+    /// Of a sum, whose coefficients may depend on modes.
+    fn sum(&mut self, constant: usize, terms: &[Node]) -> Slope {
+        let terms: Vec<(usize, f64, Node)> = terms
+            .iter()
+            .zip(constant + 1..)
+            .flat_map(|(&term, place)| self.of(term).into_iter().map(move |(c, n)| (place, c, n)))
+            .collect();
+        if terms.is_empty() {
+            return Slope::new();
+        }
+        let weights = terms
+            .iter()
+            .map(|&(place, c, node)| (c * self.b.coefficients[place], node));
+        let weights: Vec<_> = weights.collect();
+        let first = self.b.coefficients.len() + 1;
+        let out = self.b.linear(0.0, &weights);
+        for (to, (place, factor, _)) in (first..).zip(&terms) {
+            self.b.switch_likewise(*place, to, *factor);
+        }
+        vec![(1.0, out)]
+    }
+
+    /// Of a matrix times nodes.
+    fn times(&mut self, rows: &[Vec<f64>], slopes: &[Slope]) -> Vec<Slope> {
+        let there: Vec<(usize, (f64, Node))> = slopes
+            .iter()
+            .enumerate()
+            .filter_map(|(i, slope)| Some((i, self.one(slope)?)))
+            .collect();
+        if there.is_empty() {
+            return vec![Slope::new(); rows.len()];
+        }
+        let nodes: Vec<Node> = there.iter().map(|&(_, (_, node))| node).collect();
+        let row = |row: &Vec<f64>| there.iter().map(|&(i, (c, _))| c * row[i]).collect();
+        let rows: Vec<Vec<f64>> = rows.iter().map(row).collect();
+        let out = self.b.matrix(&nodes, &rows);
+        out.into_iter().map(|node| vec![(1.0, node)]).collect()
+    }
+
+    /// Node times slope.
+    fn products(&mut self, pairs: &[(Node, Slope)]) -> Vec<Slope> {
+        let scaled: Vec<_> = pairs.iter().map(|(_, slope)| self.one(slope)).collect();
+        let factors = pairs.iter().zip(&scaled);
+        let factors: Vec<_> = factors
+            .filter_map(|(&(x, _), scaled)| Some((x, scaled.as_ref()?.1)))
+            .collect();
+        let mut products = self.b.products(&factors).into_iter();
+        let product = |scaled: Option<(f64, Node)>| Some((scaled?.0, products.next()?));
+        scaled
+            .into_iter()
+            .map(product)
+            .map(|term| term.into_iter().collect())
+            .collect()
+    }
+
+    fn squares(&mut self, y: &[Node], slopes: &[Slope]) -> Vec<Slope> {
+        let pairs: Vec<_> = y.iter().copied().zip(slopes.iter().cloned()).collect();
+        let twice = |half: Slope| half.iter().map(|&(c, node)| (2.0 * c, node)).collect();
+        self.products(&pairs).into_iter().map(twice).collect()
+    }
+
+    /// q = y^2, t = A q + added, p = y t: dq = 2 y dy, dt = A dq + d(added), dp = y dt + t dy.
+    fn cubic(&mut self, op: &RawOp, y: &[Node], added: &[Node]) -> Vec<Slope> {
+        let a = SystemBuilder::cubic_matrix(&self.b.coefficients, op);
+        let first = self.ops.len();
+        let q: Vec<Node> = (first..first + y.len()).map(Node::Op).collect();
+        // t itself is no node of the program
+        let mut t: Vec<Slope> = self
+            .b
+            .matrix(&q, &a)
+            .into_iter()
+            .map(|t| vec![(1.0, t)])
+            .collect();
+        t.iter_mut()
+            .zip(added)
+            .for_each(|(t, &more)| t.push((1.0, more)));
+        let t: Vec<Node> = t.iter().filter_map(|t| Some(self.one(t)?.1)).collect();
+        let dy = self.of_all(y);
+        let dq = self.squares(y, &dy);
+        let mut dt = self.times(&a, &dq);
+        for (dt, &more) in dt.iter_mut().zip(added) {
+            dt.extend(self.of(more));
+        }
+        let pairs = y.iter().copied().zip(dt).chain(t.into_iter().zip(dy));
+        let pairs: Vec<_> = pairs.collect();
+        let dp = halves(self.products(&pairs));
+        let hidden = vec![Slope::new(); y.len()];
+        [dq, dp, hidden].concat()
+    }
+
+    /// The slope as one node with a factor; `None` where it vanishes.
+    fn one(&mut self, slope: &Slope) -> Option<(f64, Node)> {
+        match slope[..] {
+            [] => None,
+            [term] => Some(term),
+            ref terms => Some((1.0, self.b.linear(0.0, terms))),
+        }
+    }
+
+    /// The sources of adiabatic nodes, which come later in the program than these.
+    fn define_adiabatic(&mut self, op: &RawOp, place: usize) {
+        let RawOp::Adiabatic { sources, .. } = op else {
+            return;
+        };
+        let slopes = self.of_all(sources);
+        let slopes: Vec<Node> = slopes.iter().map(|s| self.b.linear(0.0, s)).collect();
+        let mut op = op.clone();
+        if let RawOp::Adiabatic { sources, .. } = &mut op {
+            *sources = slopes;
+        }
+        self.b.ops[place] = op;
+    }
+}
+
+/// Adds the second half of a list to the first.
+fn halves(mut slopes: Vec<Slope>) -> Vec<Slope> {
+    let back = slopes.split_off(slopes.len() / 2);
+    slopes.iter_mut().zip(back).for_each(|(a, b)| a.extend(b));
+    slopes
+}

@@ -1,0 +1,272 @@
+//! A forced flow seen once per period: the stroboscopic map.
+//!
+//! A place has the declared states of the system; the drive is at phase 0 there.
+
+use std::sync::atomic::AtomicBool;
+
+use saltus_hybrid::{
+    End, IntegrateError, Leg, Minimum, Options, Sample, Status, Step, Switch, SwitchKind, System,
+    Task, integrate_all,
+};
+
+use crate::map::{Crossing, Family, Image, Lost, Matrix, Place, Shot, Touch};
+
+/// Trajectories that a thread runs at the cost of one.
+const LANES: usize = 8;
+
+/// The stroboscopic maps of a family of forced systems, all with the same states.
+///
+/// The derivative is the tangent flow over one period, its columns spread over trajectories that run side
+/// by side; all of them follow the same orbit to the bit.
+pub struct Stroboscopic<'a, F> {
+    system_at: F,
+    dimension: usize,
+    options: Options,
+    threads: usize,
+    stop: &'a AtomicBool,
+}
+
+impl<'a, F> Stroboscopic<'a, F>
+where
+    F: Fn(&[f64]) -> Result<System, String> + Sync,
+{
+    /// Of the systems that `system_at` makes of parameter values, with `dimension` declared states each.
+    /// `threads` 0 is as many as the machine has; raise `stop` to end a call with [`Lost::Interrupted`].
+    pub fn new(
+        system_at: F,
+        dimension: usize,
+        options: Options,
+        threads: usize,
+        stop: &'a AtomicBool,
+    ) -> Self {
+        Self {
+            system_at,
+            dimension,
+            options,
+            threads,
+            stop,
+        }
+    }
+
+    /// The systems of the shots; equal parameters make one.
+    fn systems(&self, shots: &[Shot<'_>]) -> Vec<Result<System, String>> {
+        let mut systems: Vec<Result<System, String>> = Vec::with_capacity(shots.len());
+        for (i, shot) in shots.iter().enumerate() {
+            let same = |earlier: &Shot<'_>| earlier.parameters == shot.parameters;
+            let system = match shots[..i].iter().position(same) {
+                Some(known) => systems[known].clone(),
+                None => (self.system_at)(shot.parameters),
+            };
+            let first = systems.iter().flatten().next();
+            systems.push(system.map(|system| match first {
+                Some(first) => system.sharing(first),
+                None => system,
+            }));
+        }
+        systems
+    }
+
+    /// Columns in a trajectory, for `shots` whole derivatives: the work of a register of trajectories
+    /// grows as 1 + 2 k with their columns, the number of such registers falls as 1/k.
+    fn columns(&self, shots: usize) -> usize {
+        let available = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        let threads = if self.threads == 0 {
+            available()
+        } else {
+            self.threads
+        };
+        let cost = |k: &usize| {
+            let trajectories = shots * self.dimension.div_ceil(*k);
+            trajectories.div_ceil(LANES * threads) * (1 + 2 * k)
+        };
+        (1..=self.dimension).min_by_key(cost).unwrap_or(1)
+    }
+}
+
+impl<F> Family for Stroboscopic<'_, F>
+where
+    F: Fn(&[f64]) -> Result<System, String> + Sync,
+{
+    fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
+        let systems = self.systems(shots);
+        let mut out = vec![Err(Lost::Interrupted); shots.len()];
+        // Systems with and without tangents have different programs and cannot share a run.
+        for derivative in [false, true] {
+            let asked = shots.iter().filter(|shot| shot.derivative == derivative);
+            let width = if derivative {
+                self.columns(asked.count())
+            } else {
+                0
+            };
+            let mut flights = Vec::new();
+            for (index, (shot, system)) in shots.iter().zip(&systems).enumerate() {
+                if shot.derivative == derivative {
+                    match self.flights(index, shot, system, width) {
+                        Ok(more) => flights.extend(more),
+                        Err(lost) => out[index] = Err(lost),
+                    }
+                }
+            }
+            match integrate_all(&self.options, flights, self.threads, self.stop) {
+                Ok(ended) => ended.into_iter().for_each(|flight| flight.land(&mut out)),
+                Err(IntegrateError::Interrupted) => {}
+                Err(error) => return vec![Err(Lost::NoMap(error.to_string())); shots.len()],
+            }
+        }
+        out
+    }
+}
+
+impl<F> Stroboscopic<'_, F> {
+    /// The trajectories of a shot: `width` columns of the derivative in each, or just one.
+    fn flights(
+        &self,
+        index: usize,
+        shot: &Shot<'_>,
+        system: &Result<System, String>,
+        width: usize,
+    ) -> Result<Vec<Flight>, Lost> {
+        let n = self.dimension;
+        let mut system = system.clone().map_err(Lost::NoMap)?;
+        let (states, units) = (shot.start.x.len(), shot.start.modes.len());
+        if states != n || units != system.unit_count() {
+            let what = format!(
+                "a place has {states} states and {units} modes, the map {n} and {}",
+                system.unit_count()
+            );
+            return Err(Lost::NoMap(what));
+        }
+        if width > 0 {
+            let wide = system.with_tangents(width);
+            system = wide.map_err(|error| Lost::NoMap(error.to_string()))?;
+        }
+        let firsts = (0..n).step_by(width.max(1));
+        let flight = |first: usize| {
+            let mut start = system.point(&shot.start.modes, &shot.start.x);
+            let columns = system.columns_mut(&mut start.x);
+            (0..width.min(n - first)).for_each(|i| columns[i * n + first + i] = 1.0);
+            Flight {
+                shot: index,
+                first,
+                dimension: n,
+                period: system.period(),
+                leg: Some(Leg {
+                    system: system.clone(),
+                    start,
+                    periods: 1,
+                }),
+                columns: Vec::new(),
+                crossings: Vec::new(),
+                touches: Vec::new(),
+                landed: Err(Lost::Interrupted),
+            }
+        };
+        let count = if width > 0 { n.div_ceil(width) } else { 1 };
+        Ok(firsts.take(count).map(flight).collect())
+    }
+}
+
+/// One trajectory: an image and some columns of its derivative.
+struct Flight {
+    shot: usize,
+    /// The first of its columns; 0 also if it has none.
+    first: usize,
+    dimension: usize,
+    period: f64,
+    leg: Option<Leg>,
+    columns: Vec<f64>,
+    crossings: Vec<Crossing>,
+    touches: Vec<Touch>,
+    landed: Result<Place, Lost>,
+}
+
+impl Flight {
+    /// Hands its part of the image over.
+    fn land(self, out: &mut [Result<Image, Lost>]) {
+        let (n, out) = (self.dimension, &mut out[self.shot]);
+        if self.first == 0 {
+            let tangents = !self.columns.is_empty();
+            *out = self.landed.map(|place| Image {
+                place,
+                derivative: tangents.then(|| Matrix::zeros(n, n)),
+                crossings: self.crossings,
+                touches: self.touches,
+            });
+        }
+        let derivative = out
+            .as_mut()
+            .ok()
+            .and_then(|image| image.derivative.as_mut());
+        if let Some(derivative) = derivative {
+            for (column, values) in (self.first..n).zip(self.columns.chunks_exact(n)) {
+                for (row, &value) in values.iter().enumerate() {
+                    derivative[(row, column)] = value;
+                }
+            }
+        }
+    }
+
+    /// Whether it tells what happens on the way: one trajectory for each derivative.
+    fn reports(&self) -> bool {
+        self.first == 0 && !self.columns.is_empty()
+    }
+}
+
+impl Task for Flight {
+    fn begin(&mut self) -> Option<Leg> {
+        let leg = self.leg.take()?;
+        self.columns = leg.system.columns(&leg.start.x).to_vec();
+        Some(leg)
+    }
+
+    fn sample(&mut self, sample: &Sample<'_>) -> bool {
+        self.landed = Ok(Place {
+            modes: sample.modes.to_vec(),
+            x: sample.x[..self.dimension].to_vec(),
+        });
+        true
+    }
+
+    fn tangents(&mut self, columns: &mut [f64]) {
+        self.columns.copy_from_slice(columns);
+    }
+
+    fn switch(&mut self, switch: &Switch<'_>) {
+        if let SwitchKind::Mode { from, to } = switch.kind
+            && self.reports()
+        {
+            self.crossings.push(Crossing {
+                unit: switch.unit,
+                from,
+                to,
+                at: switch.time / self.period,
+            });
+        }
+    }
+
+    fn wants_steps(&self) -> bool {
+        self.reports()
+    }
+
+    fn step(&mut self, step: &Step<'_>) {
+        let touch = |minimum: Minimum| Touch {
+            unit: minimum.unit,
+            mode: step.modes[minimum.unit],
+            guard: minimum.transition,
+            value: minimum.value,
+            at: (step.time + minimum.since) / self.period,
+        };
+        self.touches.extend(step.minima().into_iter().map(touch));
+    }
+
+    fn end(&mut self, end: End) -> Option<Leg> {
+        if end.status != Status::Completed {
+            self.landed = Err(Lost::Ended(end.status.to_string()));
+        }
+        None
+    }
+}
