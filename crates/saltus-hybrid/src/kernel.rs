@@ -31,6 +31,8 @@ pub(crate) struct Kernel {
     series: Series<Pack>,
     /// Largest last, last-but-one and first coefficient of each lane.
     tail: [Pack; 3],
+    /// The same of the tangents, if there are any.
+    tangent_tail: Option<[Pack; 3]>,
     /// NaN where the new state is not finite, else 0.
     pub(crate) overflow: Pack,
     /// States at the start of the step.
@@ -77,6 +79,7 @@ impl Kernel {
             stream: vec![Pack::default(); structure.stream.len()],
             series: Series::new(structure, order),
             tail: [Pack::default(); 3],
+            tangent_tail: None,
             overflow: Pack::default(),
             start: vec![Pack::default(); structure.states],
             guards: vec![guard; structure.guards.len()],
@@ -163,7 +166,8 @@ impl Kernel {
 
     /// Whether the series of a lane is finite.
     pub(crate) fn is_finite(&self, slot: usize) -> bool {
-        self.tail.iter().map(|t| t.0[slot]).sum::<f64>().is_finite()
+        let finite = |tail: &[Pack; 3]| tail.iter().map(|t| t.0[slot]).sum::<f64>().is_finite();
+        finite(&self.tail) && self.tangent_tail.as_ref().is_none_or(finite)
     }
 
     /// Whether the new state of a lane is finite.
@@ -202,35 +206,52 @@ impl Kernel {
     fn expand_with<S: Simd>(&mut self, arith: Wide<S>) {
         let (structure, series) = (&self.structure, &mut self.series);
         expand(arith, structure, self.shape, &self.stream, series);
-        let mut tail = [arith.splat(0.0); 3];
-        for &slot in &self.structure.state_slots[..self.structure.controlled] {
-            for (k, tail) in [self.order, self.order - 1, 0].into_iter().zip(&mut tail) {
-                let term = arith.load(self.series.at(slot, k));
-                // The maximum may drop a NaN; adding 0 x keeps it.
-                *tail = tail.max(term.abs()) + term * arith.splat(0.0);
-            }
-        }
-        self.tail = tail.map(|t| arith.store(t));
+        let states = &self.structure.state_slots;
+        self.tail = self.largest(arith, &states[..self.structure.controlled]);
+        let tangents = self.structure.tangents.as_ref();
+        self.tangent_tail = tangents.map(|t| self.largest(arith, &states[t.first..]));
         for slot in 0..LANES {
             self.lengths.0[slot] = self.length(slot);
         }
         self.bound_guards(arith);
     }
 
+    /// Largest last, last-but-one and first coefficient at these slots.
+    #[inline(always)]
+    fn largest<S: Simd>(&self, arith: Wide<S>, slots: &[usize]) -> [Pack; 3] {
+        let mut tail = [arith.splat(0.0); 3];
+        for &slot in slots {
+            for (k, tail) in [self.order, self.order - 1, 0].into_iter().zip(&mut tail) {
+                let term = arith.load(self.series.at(slot, k));
+                // The maximum may drop a NaN; adding 0 x keeps it.
+                *tail = tail.max(term.abs()) + term * arith.splat(0.0);
+            }
+        }
+        tail.map(|t| arith.store(t))
+    }
+
     /// Length of the step: the last two terms of the series stay below the tolerance (relative to the
-    /// largest state once that exceeds 1), and it ends on the period's end at the latest.
+    /// largest state once that exceeds 1, and to the largest tangent), and it ends on the period's end at
+    /// the latest.
     #[inline(always)]
     fn length(&self, slot: usize) -> f64 {
-        let [last, before, size] = self.tail.map(|t| t.0[slot]);
         let p = self.order as f64;
-        let tolerance = self.tolerance * size.max(1.0);
-        let allowed = root(tolerance / last.max(f64::MIN_POSITIVE), p)
-            .min(root(tolerance / before.max(f64::MIN_POSITIVE), p - 1.0));
-        if (last + before + size).is_finite() {
-            allowed.min(self.left.0[slot])
-        } else {
-            0.0
+        let allowed = |[last, before, _]: [f64; 3], tolerance: f64| {
+            root(tolerance / last.max(f64::MIN_POSITIVE), p)
+                .min(root(tolerance / before.max(f64::MIN_POSITIVE), p - 1.0))
+        };
+        if !self.is_finite(slot) {
+            return 0.0;
         }
+        let tail = self.tail.map(|t| t.0[slot]);
+        let mut length = allowed(tail, self.tolerance * tail[2].max(1.0));
+        if let Some(tangents) = &self.tangent_tail {
+            let tail = tangents.map(|t| t.0[slot]);
+            if tail[2] > 0.0 {
+                length = length.min(allowed(tail, self.tolerance * tail[2]));
+            }
+        }
+        length.min(self.left.0[slot])
     }
 
     /// Range of each guard over the step: a lane whose guards keep their sign needs no root search.

@@ -126,6 +126,11 @@ impl System {
         self.structure.states
     }
 
+    /// Number of states declared at the start: those that may be chosen freely.
+    pub fn declared_len(&self) -> usize {
+        self.plan.declared
+    }
+
     /// Number of units that switch.
     pub fn unit_count(&self) -> usize {
         self.structure.units.len()

@@ -2,8 +2,8 @@
 //!
 //! A column d of the tangent flow obeys d' = Df(x) d. The derivative of a sum is a sum and that of a product
 //! two products, so the equations of any number of columns are appended to a program, operation by
-//! operation. Columns ride along as quadratures do, outside the error control: the trajectory is the same
-//! to the bit with and without them. The drive keeps its phase, so a column has as many components as there
+//! operation. The step follows the trajectory and the columns, each held to the tolerance by its own size: a
+//! fast oscillation that the trajectory has lost is alive in its tangents. The drive keeps its phase, so a column has as many components as there
 //! are declared states.
 
 use std::sync::Arc;

@@ -25,3 +25,6 @@ pub mod study;
 
 /// The engine, re-exported.
 pub use saltus_hybrid as hybrid;
+
+/// Orbits and exponents of any map, re-exported.
+pub use saltus_orbits as orbits;

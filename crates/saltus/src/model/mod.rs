@@ -4,6 +4,7 @@
 //! thicknesses h and time in radians of the drive (tau = Omega t); [`Scales`] is the only type that
 //! converts. The engine receives a program of sums and products and knows nothing of plates.
 
+mod divergence;
 mod elastic;
 mod energy;
 mod equations;
