@@ -30,9 +30,6 @@ macro_rules! shapes {
         impl Shape {
             /// The shape of a program, if it is one of these.
             pub(crate) fn of(structure: &Structure) -> Option<Self> {
-                if structure.tangents.is_some() {
-                    return None;
-                }
                 let key = key(structure);
                 $(if key == $name::KEY { return Some(Self::$name); })*
                 None
@@ -60,6 +57,7 @@ shapes!(
     condensed_4_1,
     condensed_4_1_gap,
     condensed_4_1_relaxing,
+    condensed_4_1_tangent,
     slow_manifold_4_1
 );
 
@@ -149,6 +147,31 @@ fn squares_and_products<
     (square, product)
 }
 
+/// As `cauchy::products`, for W neighbours from slot F and from slot G on.
+#[inline(always)]
+fn products<A: Arith, const S: usize, const W: usize, const F: usize, const G: usize>(
+    arith: A,
+    past: &[[A::Cell; S]],
+    row: &[A::Cell; S],
+) -> [A::V; W] {
+    let mut sums = [arith.splat(0.0); W];
+    let first = past.first().unwrap_or(row);
+    for w in 0..W {
+        sums[w] = arith.mul_add(arith.load(&first[F + w]), arith.load(&row[G + w]), sums[w]);
+    }
+    if let [_, later @ ..] = past {
+        for (f, g) in later.iter().zip(later.iter().rev()) {
+            for w in 0..W {
+                sums[w] = arith.mul_add(arith.load(&f[F + w]), arith.load(&g[G + w]), sums[w]);
+            }
+        }
+        for w in 0..W {
+            sums[w] = arith.mul_add(arith.load(&row[F + w]), arith.load(&first[G + w]), sums[w]);
+        }
+    }
+    sums
+}
+
 /// The straight-line code of a program; `None` if it has an operation that is not written out.
 pub(crate) fn source(structure: &Structure) -> Option<String> {
     let mut out = String::new();
@@ -175,7 +198,8 @@ impl Writer<'_> {
             "\
 //! Written by `cargo run --release -p saltus --example specialise`; not to be edited.
 
-use super::{{squares_and_products, term}};
+#[allow(unused_imports)]
+use super::{{products, squares_and_products, term}};
 use crate::arith::Arith;
 
 pub(super) const KEY: u64 = {:#018x};
@@ -283,7 +307,12 @@ fn guards<A: Arith>(
                     weights,
                     nodes,
                 } => self.matrix(*out, *rows, *weights, *nodes)?,
-                Op::Squares { .. } | Op::Products { .. } => return Err(std::fmt::Error),
+                Op::Products {
+                    out,
+                    count,
+                    factors,
+                } => self.products(*out, *count, *factors)?,
+                Op::Squares { .. } => return Err(std::fmt::Error),
             }
             for (node, slot) in &s.keeps[step.keeps.0..step.keeps.1] {
                 writeln!(self.out, "    row[{slot}] = a.store(n{node});")?;
@@ -331,6 +360,30 @@ fn guards<A: Arith>(
                     writeln!(self.out, "    row[{}] = a.store({sum});", slot + row)?;
                 }
             }
+        }
+        Ok(())
+    }
+
+    fn products(
+        &mut self,
+        out: usize,
+        count: usize,
+        [first, second]: [usize; 2],
+    ) -> std::fmt::Result {
+        let mut at = 0;
+        while at < count {
+            let width = (count - at).min(8);
+            writeln!(
+                self.out,
+                "    let p{} = products::<A, SLOTS, {width}, {}, {}>(a, past, row);",
+                out + at,
+                first + at,
+                second + at
+            )?;
+            for w in 0..width {
+                writeln!(self.out, "    let n{} = p{}[{w}];", out + at + w, out + at)?;
+            }
+            at += width;
         }
         Ok(())
     }

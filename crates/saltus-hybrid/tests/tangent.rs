@@ -85,11 +85,14 @@ fn determinant(columns: &[f64], n: usize) -> f64 {
             det = -det;
         }
         det *= a[i][i];
-        for j in i + 1..n {
-            let factor = a[j][i] / a[i][i];
-            for k in i..n {
-                a[j][k] -= factor * a[i][k];
-            }
+        let (done, rest) = a.split_at_mut(i + 1);
+        let row = &done[i];
+        for other in rest {
+            let factor = other[i] / row[i];
+            other
+                .iter_mut()
+                .zip(row)
+                .for_each(|(x, y)| *x -= factor * y);
         }
     }
     det
@@ -200,10 +203,10 @@ fn rk4_carries_the_tangent_flow_to_its_order() {
 fn a_bounce_of_a_ball_has_its_closed_form() {
     // From height h at rest: t = sqrt(2h/g) of fall, then up with e sqrt(2gh). The state at T is linear
     // in nothing, but its derivative with respect to h is exact in closed form.
-    let (g, e, h, period) = (1.0, 0.8, 1.0, 2.0);
+    let (g, e, h, period): (f64, f64, f64, f64) = (1.0, 0.8, 1.0, 2.0);
     let ball = testing::bouncing_ball(g, e, period);
     let (columns, end) = tangent(&ball, &ball.point(&[0], &[h, 0.0]), 2, 1, TAYLOR);
-    let fall = (2.0 * h / g as f64).sqrt();
+    let fall = (2.0 * h / g).sqrt();
     let left = period - fall;
     // z = e g fall left - g left^2/2, v = e g fall - g left, dfall/dh = 1/(g fall)
     let rate = 1.0 / (g * fall);

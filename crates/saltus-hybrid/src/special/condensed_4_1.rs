@@ -1,6 +1,7 @@
 //! Written by `cargo run --release -p saltus --example specialise`; not to be edited.
 
-use super::{squares_and_products, term};
+#[allow(unused_imports)]
+use super::{products, squares_and_products, term};
 use crate::arith::Arith;
 
 pub(super) const KEY: u64 = 0xaa504c24d7f6cfc8;

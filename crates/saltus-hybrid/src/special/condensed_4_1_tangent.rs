@@ -1,0 +1,323 @@
+//! Written by `cargo run --release -p saltus --example specialise`; not to be edited.
+
+#[allow(unused_imports)]
+use super::{products, squares_and_products, term};
+use crate::arith::Arith;
+
+pub(super) const KEY: u64 = 0xc371d699460a002a;
+const SLOTS: usize = 85;
+const STREAM: usize = 452;
+
+#[inline(always)]
+pub(super) fn expand<A: Arith>(a: A, c: &[A::Cell], kept: &mut [A::Cell]) {
+    let Some(c) = c.first_chunk::<STREAM>() else { return };
+    let rows = kept.as_chunks_mut::<SLOTS>().0;
+    let Some((first, rest)) = rows.split_first_mut() else { return };
+    let Some(next) = rest.first_mut() else { return };
+    first[30] = first[0];
+    first[31] = first[1];
+    first[32] = first[2];
+    first[33] = first[3];
+    first[60] = first[20];
+    first[61] = first[21];
+    first[62] = first[22];
+    first[63] = first[23];
+order::<A, true>(a, c, &[], first, next, a.splat(1.0));
+    let last = rows.len() - 1;
+    for k in 1..last {
+        let (past, rest) = rows.split_at_mut(k);
+        let [row, next, ..] = rest else { return };
+        order::<A, false>(a, c, past, row, next, a.splat(1.0 / (k + 1) as f64));
+    }
+    let (past, rest) = rows.split_at_mut(last);
+    if let [row] = rest { guards(a, c, past, row) }
+}
+
+#[inline(always)]
+fn order<A: Arith, const FIRST: bool>(
+    a: A,
+    c: &[A::Cell; STREAM],
+    past: &[[A::Cell; SLOTS]],
+    row: &mut [A::Cell; SLOTS],
+    next: &mut [A::Cell; SLOTS],
+    factor: A::V,
+) {
+    let z = a.splat(0.0);
+    let n0 = a.load(&row[0]);
+    let n1 = a.load(&row[1]);
+    let n2 = a.load(&row[2]);
+    let n3 = a.load(&row[3]);
+    let n4 = a.load(&row[70]);
+    let n5 = a.load(&row[71]);
+    let n6 = a.load(&row[72]);
+    let n7 = a.load(&row[73]);
+    let n8 = a.load(&row[74]);
+    let n9 = a.load(&row[75]);
+    let n10 = a.load(&row[76]);
+    let n11 = a.load(&row[77]);
+    let n12 = a.load(&row[20]);
+    let n13 = a.load(&row[21]);
+    let n14 = a.load(&row[22]);
+    let n15 = a.load(&row[23]);
+    let n16 = a.load(&row[78]);
+    let n17 = a.load(&row[79]);
+    let n18 = a.load(&row[80]);
+    let n19 = a.load(&row[81]);
+    let n20 = a.load(&row[82]);
+    let n21 = a.load(&row[83]);
+    let n22 = term(a, c, 2, n11, if FIRST { a.load(&c[0]) } else { z });
+    let n23 = term(a, c, 3, n10, if FIRST { a.load(&c[1]) } else { z });
+    let n24 = term(a, c, 16, n8, term(a, c, 14, n10, term(a, c, 12, n3, term(a, c, 10, n2, term(a, c, 8, n1, term(a, c, 6, n0, if FIRST { a.load(&c[4]) } else { z }))))));
+    let n25 = term(a, c, 17, n9, term(a, c, 15, n11, term(a, c, 13, n7, term(a, c, 11, n6, term(a, c, 9, n5, term(a, c, 7, n4, if FIRST { a.load(&c[5]) } else { z }))))));
+    let n26 = term(a, c, 22, n25, term(a, c, 20, n24, if FIRST { a.load(&c[18]) } else { z }));
+    let n27 = term(a, c, 23, n25, term(a, c, 21, n24, if FIRST { a.load(&c[19]) } else { z }));
+    let n28 = term(a, c, 25, n27, if FIRST { a.load(&c[24]) } else { z });
+    let n29 = term(a, c, 34, n11, term(a, c, 30, n10, if FIRST { a.load(&c[26]) } else { z }));
+    let n30 = term(a, c, 35, n1, term(a, c, 31, n0, if FIRST { a.load(&c[27]) } else { z }));
+    let n31 = term(a, c, 36, n2, term(a, c, 32, n0, if FIRST { a.load(&c[28]) } else { z }));
+    let n32 = term(a, c, 37, n3, term(a, c, 33, n0, if FIRST { a.load(&c[29]) } else { z }));
+    let n33 = term(a, c, 44, n2, term(a, c, 41, n1, if FIRST { a.load(&c[38]) } else { z }));
+    let n34 = term(a, c, 45, n3, term(a, c, 42, n1, if FIRST { a.load(&c[39]) } else { z }));
+    let n35 = term(a, c, 46, n3, term(a, c, 43, n2, if FIRST { a.load(&c[40]) } else { z }));
+    row[84] = a.store(n26);
+    row[4] = a.store(n30);
+    row[34] = a.store(n30);
+    row[5] = a.store(n31);
+    row[35] = a.store(n31);
+    row[6] = a.store(n32);
+    row[36] = a.store(n32);
+    row[7] = a.store(n33);
+    row[37] = a.store(n33);
+    row[8] = a.store(n34);
+    row[38] = a.store(n34);
+    row[9] = a.store(n35);
+    row[39] = a.store(n35);
+    let (q0, p0) = squares_and_products::<A, SLOTS, 5, 0, 10>(a, past, row);
+    let (n36, p46) = (q0[0], p0[0]);
+    let (n37, p47) = (q0[1], p0[1]);
+    let (n38, p48) = (q0[2], p0[2]);
+    let (n39, p49) = (q0[3], p0[3]);
+    let (n40, p50) = (q0[4], p0[4]);
+    let (q5, p5) = squares_and_products::<A, SLOTS, 5, 5, 15>(a, past, row);
+    let (n41, p51) = (q5[0], p5[0]);
+    let (n42, p52) = (q5[1], p5[1]);
+    let (n43, p53) = (q5[2], p5[2]);
+    let (n44, p54) = (q5[3], p5[3]);
+    let (n45, p55) = (q5[4], p5[4]);
+    let t0 = a.add(term(a, c, 79, n44, term(a, c, 71, n42, term(a, c, 63, n40, term(a, c, 55, n38, term(a, c, 47, n36, z))))), term(a, c, 83, n45, term(a, c, 75, n43, term(a, c, 67, n41, term(a, c, 59, n39, term(a, c, 51, n37, z))))));
+    let t1 = a.add(term(a, c, 80, n44, term(a, c, 72, n42, term(a, c, 64, n40, term(a, c, 56, n38, term(a, c, 48, n36, z))))), term(a, c, 84, n45, term(a, c, 76, n43, term(a, c, 68, n41, term(a, c, 60, n39, term(a, c, 52, n37, z))))));
+    let t2 = a.add(term(a, c, 81, n44, term(a, c, 73, n42, term(a, c, 65, n40, term(a, c, 57, n38, term(a, c, 49, n36, z))))), term(a, c, 85, n45, term(a, c, 77, n43, term(a, c, 69, n41, term(a, c, 61, n39, term(a, c, 53, n37, z))))));
+    let t3 = a.add(term(a, c, 82, n44, term(a, c, 74, n42, term(a, c, 66, n40, term(a, c, 58, n38, term(a, c, 50, n36, z))))), term(a, c, 86, n45, term(a, c, 78, n43, term(a, c, 70, n41, term(a, c, 62, n39, term(a, c, 54, n37, z))))));
+    let t4 = a.add(term(a, c, 95, n38, term(a, c, 87, n36, z)), term(a, c, 99, n39, term(a, c, 91, n37, z)));
+    let t5 = a.add(term(a, c, 96, n38, term(a, c, 88, n36, z)), term(a, c, 100, n39, term(a, c, 92, n37, z)));
+    let t6 = a.add(term(a, c, 97, n38, term(a, c, 89, n36, z)), term(a, c, 101, n39, term(a, c, 93, n37, z)));
+    let t7 = a.add(term(a, c, 98, n38, term(a, c, 90, n36, z)), term(a, c, 102, n39, term(a, c, 94, n37, z)));
+    let t8 = a.add(term(a, c, 107, n38, term(a, c, 103, n36, z)), term(a, c, 109, n39, term(a, c, 105, n37, z)));
+    let t9 = a.add(term(a, c, 108, n38, term(a, c, 104, n36, z)), term(a, c, 110, n39, term(a, c, 106, n37, z)));
+    let t4 = term(a, c, 111, n45, t4);
+    let t9 = term(a, c, 112, n40, t9);
+    row[10] = a.store(t0);
+    let y0 = match past { [first, ..] => a.load(&first[0]), [] => a.load(&row[0]) };
+    let n46 = a.mul_add(t0, y0, p46);
+    row[11] = a.store(t1);
+    let y1 = match past { [first, ..] => a.load(&first[1]), [] => a.load(&row[1]) };
+    let n47 = a.mul_add(t1, y1, p47);
+    row[12] = a.store(t2);
+    let y2 = match past { [first, ..] => a.load(&first[2]), [] => a.load(&row[2]) };
+    let n48 = a.mul_add(t2, y2, p48);
+    row[13] = a.store(t3);
+    let y3 = match past { [first, ..] => a.load(&first[3]), [] => a.load(&row[3]) };
+    let n49 = a.mul_add(t3, y3, p49);
+    row[14] = a.store(t4);
+    let y4 = match past { [first, ..] => a.load(&first[4]), [] => a.load(&row[4]) };
+    let n50 = a.mul_add(t4, y4, p50);
+    row[15] = a.store(t5);
+    let y5 = match past { [first, ..] => a.load(&first[5]), [] => a.load(&row[5]) };
+    let n51 = a.mul_add(t5, y5, p51);
+    row[16] = a.store(t6);
+    let y6 = match past { [first, ..] => a.load(&first[6]), [] => a.load(&row[6]) };
+    let n52 = a.mul_add(t6, y6, p52);
+    row[17] = a.store(t7);
+    let y7 = match past { [first, ..] => a.load(&first[7]), [] => a.load(&row[7]) };
+    let n53 = a.mul_add(t7, y7, p53);
+    row[18] = a.store(t8);
+    let y8 = match past { [first, ..] => a.load(&first[8]), [] => a.load(&row[8]) };
+    let n54 = a.mul_add(t8, y8, p54);
+    row[19] = a.store(t9);
+    let y9 = match past { [first, ..] => a.load(&first[9]), [] => a.load(&row[9]) };
+    let n55 = a.mul_add(t9, y9, p55);
+    let n66 = term(a, c, 145, n27, term(a, c, 141, n52, term(a, c, 137, n51, term(a, c, 133, n50, term(a, c, 129, n46, term(a, c, 125, n29, term(a, c, 121, n4, term(a, c, 117, n0, if FIRST { a.load(&c[113]) } else { z }))))))));
+    let n67 = term(a, c, 146, n27, term(a, c, 142, n54, term(a, c, 138, n53, term(a, c, 134, n50, term(a, c, 130, n47, term(a, c, 126, n29, term(a, c, 122, n5, term(a, c, 118, n1, if FIRST { a.load(&c[114]) } else { z }))))))));
+    let n68 = term(a, c, 147, n27, term(a, c, 143, n55, term(a, c, 139, n53, term(a, c, 135, n51, term(a, c, 131, n48, term(a, c, 127, n29, term(a, c, 123, n6, term(a, c, 119, n2, if FIRST { a.load(&c[115]) } else { z }))))))));
+    let n69 = term(a, c, 148, n27, term(a, c, 144, n55, term(a, c, 140, n54, term(a, c, 136, n52, term(a, c, 132, n49, term(a, c, 128, n29, term(a, c, 124, n7, term(a, c, 120, n3, if FIRST { a.load(&c[116]) } else { z }))))))));
+    let n70 = term(a, c, 159, n20, term(a, c, 157, n15, term(a, c, 155, n14, term(a, c, 153, n13, term(a, c, 151, n12, if FIRST { a.load(&c[149]) } else { z })))));
+    let n71 = term(a, c, 160, n21, term(a, c, 158, n19, term(a, c, 156, n18, term(a, c, 154, n17, term(a, c, 152, n16, if FIRST { a.load(&c[150]) } else { z })))));
+    let n72 = term(a, c, 165, n71, term(a, c, 163, n70, if FIRST { a.load(&c[161]) } else { z }));
+    let n73 = term(a, c, 166, n71, term(a, c, 164, n70, if FIRST { a.load(&c[162]) } else { z }));
+    let n74 = term(a, c, 168, n73, if FIRST { a.load(&c[167]) } else { z });
+    let n75 = term(a, c, 177, n13, term(a, c, 173, n12, if FIRST { a.load(&c[169]) } else { z }));
+    let n76 = term(a, c, 178, n14, term(a, c, 174, n12, if FIRST { a.load(&c[170]) } else { z }));
+    let n77 = term(a, c, 179, n15, term(a, c, 175, n12, if FIRST { a.load(&c[171]) } else { z }));
+    let n78 = term(a, c, 180, n14, term(a, c, 176, n13, if FIRST { a.load(&c[172]) } else { z }));
+    let n79 = term(a, c, 185, n15, term(a, c, 183, n13, if FIRST { a.load(&c[181]) } else { z }));
+    let n80 = term(a, c, 186, n15, term(a, c, 184, n14, if FIRST { a.load(&c[182]) } else { z }));
+    row[24] = a.store(n75);
+    row[64] = a.store(n75);
+    row[25] = a.store(n76);
+    row[65] = a.store(n76);
+    row[26] = a.store(n77);
+    row[66] = a.store(n77);
+    row[27] = a.store(n78);
+    row[67] = a.store(n78);
+    row[28] = a.store(n79);
+    row[68] = a.store(n79);
+    row[29] = a.store(n80);
+    row[69] = a.store(n80);
+    row[40] = a.store(term(a, c, 223, n45, term(a, c, 219, n44, term(a, c, 215, n43, term(a, c, 211, n42, term(a, c, 207, n41, term(a, c, 203, n40, term(a, c, 199, n39, term(a, c, 195, n38, term(a, c, 191, n37, term(a, c, 187, n36, z)))))))))));
+    row[41] = a.store(term(a, c, 224, n45, term(a, c, 220, n44, term(a, c, 216, n43, term(a, c, 212, n42, term(a, c, 208, n41, term(a, c, 204, n40, term(a, c, 200, n39, term(a, c, 196, n38, term(a, c, 192, n37, term(a, c, 188, n36, z)))))))))));
+    row[42] = a.store(term(a, c, 225, n45, term(a, c, 221, n44, term(a, c, 217, n43, term(a, c, 213, n42, term(a, c, 209, n41, term(a, c, 205, n40, term(a, c, 201, n39, term(a, c, 197, n38, term(a, c, 193, n37, term(a, c, 189, n36, z)))))))))));
+    row[43] = a.store(term(a, c, 226, n45, term(a, c, 222, n44, term(a, c, 218, n43, term(a, c, 214, n42, term(a, c, 210, n41, term(a, c, 206, n40, term(a, c, 202, n39, term(a, c, 198, n38, term(a, c, 194, n37, term(a, c, 190, n36, z)))))))))));
+    row[44] = a.store(term(a, c, 263, n45, term(a, c, 259, n44, term(a, c, 255, n43, term(a, c, 251, n42, term(a, c, 247, n41, term(a, c, 243, n40, term(a, c, 239, n39, term(a, c, 235, n38, term(a, c, 231, n37, term(a, c, 227, n36, z)))))))))));
+    row[45] = a.store(term(a, c, 264, n45, term(a, c, 260, n44, term(a, c, 256, n43, term(a, c, 252, n42, term(a, c, 248, n41, term(a, c, 244, n40, term(a, c, 240, n39, term(a, c, 236, n38, term(a, c, 232, n37, term(a, c, 228, n36, z)))))))))));
+    row[46] = a.store(term(a, c, 265, n45, term(a, c, 261, n44, term(a, c, 257, n43, term(a, c, 253, n42, term(a, c, 249, n41, term(a, c, 245, n40, term(a, c, 241, n39, term(a, c, 237, n38, term(a, c, 233, n37, term(a, c, 229, n36, z)))))))))));
+    row[47] = a.store(term(a, c, 266, n45, term(a, c, 262, n44, term(a, c, 258, n43, term(a, c, 254, n42, term(a, c, 250, n41, term(a, c, 246, n40, term(a, c, 242, n39, term(a, c, 238, n38, term(a, c, 234, n37, term(a, c, 230, n36, z)))))))))));
+    row[48] = a.store(term(a, c, 285, n45, term(a, c, 283, n44, term(a, c, 281, n43, term(a, c, 279, n42, term(a, c, 277, n41, term(a, c, 275, n40, term(a, c, 273, n39, term(a, c, 271, n38, term(a, c, 269, n37, term(a, c, 267, n36, z)))))))))));
+    row[49] = a.store(term(a, c, 286, n45, term(a, c, 284, n44, term(a, c, 282, n43, term(a, c, 280, n42, term(a, c, 278, n41, term(a, c, 276, n40, term(a, c, 274, n39, term(a, c, 272, n38, term(a, c, 270, n37, term(a, c, 268, n36, z)))))))))));
+    let p91 = products::<A, SLOTS, 8, 0, 20>(a, past, row);
+    let n91 = p91[0];
+    let n92 = p91[1];
+    let n93 = p91[2];
+    let n94 = p91[3];
+    let n95 = p91[4];
+    let n96 = p91[5];
+    let n97 = p91[6];
+    let n98 = p91[7];
+    let p99 = products::<A, SLOTS, 2, 8, 28>(a, past, row);
+    let n99 = p99[0];
+    let n100 = p99[1];
+    row[50] = a.store(term(a, c, 323, n100, term(a, c, 319, n99, term(a, c, 315, n98, term(a, c, 311, n97, term(a, c, 307, n96, term(a, c, 303, n95, term(a, c, 299, n94, term(a, c, 295, n93, term(a, c, 291, n92, term(a, c, 287, n91, z)))))))))));
+    row[51] = a.store(term(a, c, 324, n100, term(a, c, 320, n99, term(a, c, 316, n98, term(a, c, 312, n97, term(a, c, 308, n96, term(a, c, 304, n95, term(a, c, 300, n94, term(a, c, 296, n93, term(a, c, 292, n92, term(a, c, 288, n91, z)))))))))));
+    row[52] = a.store(term(a, c, 325, n100, term(a, c, 321, n99, term(a, c, 317, n98, term(a, c, 313, n97, term(a, c, 309, n96, term(a, c, 305, n95, term(a, c, 301, n94, term(a, c, 297, n93, term(a, c, 293, n92, term(a, c, 289, n91, z)))))))))));
+    row[53] = a.store(term(a, c, 326, n100, term(a, c, 322, n99, term(a, c, 318, n98, term(a, c, 314, n97, term(a, c, 310, n96, term(a, c, 306, n95, term(a, c, 302, n94, term(a, c, 298, n93, term(a, c, 294, n92, term(a, c, 290, n91, z)))))))))));
+    row[54] = a.store(term(a, c, 363, n100, term(a, c, 359, n99, term(a, c, 355, n98, term(a, c, 351, n97, term(a, c, 347, n96, term(a, c, 343, n95, term(a, c, 339, n94, term(a, c, 335, n93, term(a, c, 331, n92, term(a, c, 327, n91, z)))))))))));
+    row[55] = a.store(term(a, c, 364, n100, term(a, c, 360, n99, term(a, c, 356, n98, term(a, c, 352, n97, term(a, c, 348, n96, term(a, c, 344, n95, term(a, c, 340, n94, term(a, c, 336, n93, term(a, c, 332, n92, term(a, c, 328, n91, z)))))))))));
+    row[56] = a.store(term(a, c, 365, n100, term(a, c, 361, n99, term(a, c, 357, n98, term(a, c, 353, n97, term(a, c, 349, n96, term(a, c, 345, n95, term(a, c, 341, n94, term(a, c, 337, n93, term(a, c, 333, n92, term(a, c, 329, n91, z)))))))))));
+    row[57] = a.store(term(a, c, 366, n100, term(a, c, 362, n99, term(a, c, 358, n98, term(a, c, 354, n97, term(a, c, 350, n96, term(a, c, 346, n95, term(a, c, 342, n94, term(a, c, 338, n93, term(a, c, 334, n92, term(a, c, 330, n91, z)))))))))));
+    row[58] = a.store(term(a, c, 385, n100, term(a, c, 383, n99, term(a, c, 381, n98, term(a, c, 379, n97, term(a, c, 377, n96, term(a, c, 375, n95, term(a, c, 373, n94, term(a, c, 371, n93, term(a, c, 369, n92, term(a, c, 367, n91, z)))))))))));
+    row[59] = a.store(term(a, c, 386, n100, term(a, c, 384, n99, term(a, c, 382, n98, term(a, c, 380, n97, term(a, c, 378, n96, term(a, c, 376, n95, term(a, c, 374, n94, term(a, c, 372, n93, term(a, c, 370, n92, term(a, c, 368, n91, z)))))))))));
+    let p111 = products::<A, SLOTS, 8, 30, 50>(a, past, row);
+    let n111 = p111[0];
+    let n112 = p111[1];
+    let n113 = p111[2];
+    let n114 = p111[3];
+    let n115 = p111[4];
+    let n116 = p111[5];
+    let n117 = p111[6];
+    let n118 = p111[7];
+    let p119 = products::<A, SLOTS, 8, 38, 58>(a, past, row);
+    let n119 = p119[0];
+    let n120 = p119[1];
+    let n121 = p119[2];
+    let n122 = p119[3];
+    let n123 = p119[4];
+    let n124 = p119[5];
+    let n125 = p119[6];
+    let n126 = p119[7];
+    let p127 = products::<A, SLOTS, 4, 46, 66>(a, past, row);
+    let n127 = p127[0];
+    let n128 = p127[1];
+    let n129 = p127[2];
+    let n130 = p127[3];
+    let n131 = term(a, c, 431, n73, term(a, c, 427, n127, term(a, c, 423, n117, term(a, c, 419, n126, term(a, c, 415, n116, term(a, c, 411, n125, term(a, c, 407, n115, term(a, c, 403, n121, term(a, c, 399, n111, term(a, c, 395, n16, term(a, c, 391, n12, if FIRST { a.load(&c[387]) } else { z })))))))))));
+    let n132 = term(a, c, 432, n73, term(a, c, 428, n129, term(a, c, 424, n119, term(a, c, 420, n128, term(a, c, 416, n118, term(a, c, 412, n125, term(a, c, 408, n115, term(a, c, 404, n122, term(a, c, 400, n112, term(a, c, 396, n17, term(a, c, 392, n13, if FIRST { a.load(&c[388]) } else { z })))))))))));
+    let n133 = term(a, c, 433, n73, term(a, c, 429, n130, term(a, c, 425, n120, term(a, c, 421, n128, term(a, c, 417, n118, term(a, c, 413, n126, term(a, c, 409, n116, term(a, c, 405, n123, term(a, c, 401, n113, term(a, c, 397, n18, term(a, c, 393, n14, if FIRST { a.load(&c[389]) } else { z })))))))))));
+    let n134 = term(a, c, 434, n73, term(a, c, 430, n130, term(a, c, 426, n120, term(a, c, 422, n129, term(a, c, 418, n119, term(a, c, 414, n127, term(a, c, 410, n117, term(a, c, 406, n124, term(a, c, 402, n114, term(a, c, 398, n19, term(a, c, 394, n15, if FIRST { a.load(&c[390]) } else { z })))))))))));
+    let m0 = a.mul(n4, factor);
+    next[0] = a.store(m0);
+    let m1 = a.mul(n5, factor);
+    next[1] = a.store(m1);
+    let m2 = a.mul(n6, factor);
+    next[2] = a.store(m2);
+    let m3 = a.mul(n7, factor);
+    next[3] = a.store(m3);
+    let m4 = a.mul(n66, factor);
+    next[70] = a.store(m4);
+    let m5 = a.mul(n67, factor);
+    next[71] = a.store(m5);
+    let m6 = a.mul(n68, factor);
+    next[72] = a.store(m6);
+    let m7 = a.mul(n69, factor);
+    next[73] = a.store(m7);
+    let m8 = a.mul(n9, factor);
+    next[74] = a.store(m8);
+    let m9 = a.mul(n28, factor);
+    next[75] = a.store(m9);
+    let m10 = a.mul(n22, factor);
+    next[76] = a.store(m10);
+    let m11 = a.mul(n23, factor);
+    next[77] = a.store(m11);
+    let m12 = a.mul(n16, factor);
+    next[20] = a.store(m12);
+    let m13 = a.mul(n17, factor);
+    next[21] = a.store(m13);
+    let m14 = a.mul(n18, factor);
+    next[22] = a.store(m14);
+    let m15 = a.mul(n19, factor);
+    next[23] = a.store(m15);
+    let m16 = a.mul(n131, factor);
+    next[78] = a.store(m16);
+    let m17 = a.mul(n132, factor);
+    next[79] = a.store(m17);
+    let m18 = a.mul(n133, factor);
+    next[80] = a.store(m18);
+    let m19 = a.mul(n134, factor);
+    next[81] = a.store(m19);
+    let m20 = a.mul(n21, factor);
+    next[82] = a.store(m20);
+    let m21 = a.mul(n74, factor);
+    next[83] = a.store(m21);
+    next[30] = a.store(m0);
+    next[31] = a.store(m1);
+    next[32] = a.store(m2);
+    next[33] = a.store(m3);
+    next[60] = a.store(m12);
+    next[61] = a.store(m13);
+    next[62] = a.store(m14);
+    next[63] = a.store(m15);
+}
+
+#[inline(always)]
+fn guards<A: Arith>(
+    a: A,
+    c: &[A::Cell; STREAM],
+    past: &[[A::Cell; SLOTS]],
+    row: &mut [A::Cell; SLOTS],
+) {
+    let (z, _) = (a.splat(0.0), past);
+    let n0 = a.load(&row[0]);
+    let n1 = a.load(&row[1]);
+    let n2 = a.load(&row[2]);
+    let n3 = a.load(&row[3]);
+    let n4 = a.load(&row[70]);
+    let n5 = a.load(&row[71]);
+    let n6 = a.load(&row[72]);
+    let n7 = a.load(&row[73]);
+    let n8 = a.load(&row[74]);
+    let n9 = a.load(&row[75]);
+    let n10 = a.load(&row[76]);
+    let n11 = a.load(&row[77]);
+    let n12 = a.load(&row[20]);
+    let n13 = a.load(&row[21]);
+    let n14 = a.load(&row[22]);
+    let n15 = a.load(&row[23]);
+    let n16 = a.load(&row[78]);
+    let n17 = a.load(&row[79]);
+    let n18 = a.load(&row[80]);
+    let n19 = a.load(&row[81]);
+    let n20 = a.load(&row[82]);
+    let n21 = a.load(&row[83]);
+    let n24 = term(a, c, 447, n8, term(a, c, 445, n10, term(a, c, 443, n3, term(a, c, 441, n2, term(a, c, 439, n1, term(a, c, 437, n0, z))))));
+    let n25 = term(a, c, 448, n9, term(a, c, 446, n11, term(a, c, 444, n7, term(a, c, 442, n6, term(a, c, 440, n5, term(a, c, 438, n4, z))))));
+    let n26 = term(a, c, 451, n25, term(a, c, 450, n24, z));
+    row[84] = a.store(n26);
+}
