@@ -15,6 +15,7 @@
 //! # Ok::<(), saltus_config::StudyError>(())
 //! ```
 
+mod axis;
 mod error;
 mod key;
 mod load;

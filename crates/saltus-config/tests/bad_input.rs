@@ -353,6 +353,7 @@ const CONTRADICTIONS: &[(&str, &str)] = &[
         "map.x.parameter=plate.modes",
         "not a key that holds a number",
     ),
+    ("map.x.parameter=base.frequency", "two different ones"),
     ("map.x.parameter=start.z", "from the same [start]"),
     (
         "map.y.parameter=solver.tolerance",
