@@ -1,6 +1,7 @@
-//! A key that goes from one value to another: what `[sweep]`, `[map.x]` and their like share.
+//! A key that goes from one value to another: what `[sweep]`, `[map.x]`, `[continue]` and their like share.
 
 use crate::Parameter;
+use crate::error::{StudyError, StudyErrorKind};
 use crate::structure::Fault;
 use crate::study::{AxisTable, Study};
 use crate::validate::wrong;
@@ -30,6 +31,38 @@ impl<'a> Axis<'a> {
 
     fn fault(&self, key: &str, given: impl Into<toml::Value>, what: &str) -> Fault {
         wrong(&format!("{}.{key}", self.table), given, what)
+    }
+
+    /// The study's own value of the parameter, which must lie between the ends.
+    pub(crate) fn own_value(&self, study: &Study) -> Result<f64, StudyError> {
+        let Self {
+            table, from, to, ..
+        } = *self;
+        let parameter = Parameter::parse(self.parameter)?;
+        // a jumper that is not there is told of as for any other change
+        parameter.apply(study, from)?;
+        let (what, help) = match parameter.value(study) {
+            None => (
+                "the study gives no value to begin with".to_owned(),
+                format!("give {parameter}, or name a key that the study gives"),
+            ),
+            Some(value) if parameter.apply(study, value)? != *study => (
+                "the people differ in it, and one value to begin with is needed".to_owned(),
+                "name the key of one of them, such as jumper.0.mass".to_owned(),
+            ),
+            Some(value) if !(from.min(to)..=from.max(to)).contains(&value) => (
+                format!(
+                    "the study's own value {value}, to begin with, lies outside {from} to {to}"
+                ),
+                format!("change {parameter}, {table}.from or {table}.to"),
+            ),
+            Some(value) => return Ok(value),
+        };
+        let key = format!("{table}.parameter");
+        let message = format!("{key} = {:?}: {what}", self.parameter);
+        Err(StudyError::new(StudyErrorKind::Value, message)
+            .key_is(key)
+            .help(help))
     }
 }
 

@@ -6,7 +6,7 @@ use crate::key::Key;
 use crate::schema::Node;
 use crate::structure::{Fault, Point, description};
 use crate::study::{Direction, Law, Modes, Reference, Study};
-use crate::{Basis, plane};
+use crate::{Basis, orbits, plane};
 use garde::Validate;
 use toml::Value;
 
@@ -62,6 +62,9 @@ pub(crate) fn faults(study: &Study) -> Vec<Fault> {
         sweep(study, &mut faults);
         plane::map(study, &mut faults);
         plane::basins(study, &mut faults);
+        orbits::orbit(study, &mut faults);
+        orbits::branches(study, &mut faults);
+        orbits::attractors(study, &mut faults);
     }
     faults
 }
@@ -89,7 +92,9 @@ fn ranges(study: &Study) -> Vec<Fault> {
     };
     let tree = Value::try_from(study).unwrap_or(Value::Boolean(false));
     let fault = |(path, error): &(garde::Path, garde::Error)| {
-        let key = key(&path.to_string().replace('[', ".").replace(']', ""));
+        // no field of a record can be called `continue`
+        let path = path.to_string().replace("continuation", "continue");
+        let key = key(&path.replace('[', ".").replace(']', ""));
         let given = key.segments().iter().try_fold(&tree, |at, name| match at {
             Value::Array(items) => items.get(name.parse::<usize>().ok()?),
             other => other.get(name.as_str()),
