@@ -129,6 +129,15 @@ fn check_warns_of_a_jumper_who_moves_nothing() {
 }
 
 #[test]
+fn check_warns_of_a_branch_that_cannot_begin() {
+    let desk = Desk::new();
+    saltus(&["check", &desk.paper(), "--set", "jumper.damping_ratio=0.05"])
+        .assert()
+        .success()
+        .stdout(contains("[continue] cannot run").and(contains("outside 0.1 to 0.5")));
+}
+
+#[test]
 fn check_out_leaves_the_resolved_study() {
     let desk = Desk::new();
     let out = desk.str("deep/results");

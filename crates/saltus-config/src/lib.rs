@@ -15,9 +15,11 @@
 //! # Ok::<(), saltus_config::StudyError>(())
 //! ```
 
+mod axis;
 mod error;
 mod key;
 mod load;
+mod orbits;
 mod overrides;
 mod parameter;
 mod physics;
@@ -34,8 +36,9 @@ pub use load::{load, parse, read};
 pub use parameter::Parameter;
 pub use schema::{keys, schema};
 pub use study::{
-    AxisTable, BaseTable, BasinsTable, Basis, ContactTable, Direction, GravityTable, Inertia,
-    JumperTable, Law, MapTable, Method, ModeLists, Modes, PlateTable, Reference, SimulateTable,
-    SolverTable, StartTable, Study, SweepTable,
+    AttractorsTable, AxisTable, BaseTable, BasinsTable, Basis, ContactTable, ContinueTable,
+    Direction, GravityTable, Inertia, JumperTable, Law, LyapunovTable, MapTable, Method, ModeLists,
+    Modes, OrbitTable, PlateTable, Reference, SecondTable, SimulateTable, SolverTable, StartTable,
+    Study, SweepTable,
 };
 pub use template::paper_template;

@@ -141,7 +141,15 @@ impl Study {
 }
 
 /// Tables that say what is asked: no question changes itself or another.
-const QUESTIONS: [&str; 3] = ["sweep", "map", "basins"];
+const QUESTIONS: [&str; 7] = [
+    "sweep",
+    "map",
+    "basins",
+    "orbit",
+    "lyapunov",
+    "continue",
+    "attractors",
+];
 
 /// Does the key hold a number of the system or its start?
 fn varies(key: &Key) -> bool {

@@ -136,7 +136,7 @@ impl Node {
             return Some(self);
         };
         match (self.kind(), index(first)) {
-            (Kind::Tables, Some(_)) => self.items().find(rest),
+            (Kind::Tables | Kind::List, Some(_)) => self.items().find(rest),
             (Kind::Tables, None) => self.items().find(segments),
             _ => self.child(first)?.find(rest),
         }

@@ -1,12 +1,12 @@
 //! Is a study of the right shape also a possible one?
 
+use crate::axis::{self, Axis};
 use crate::error::{StudyError, StudyErrorKind};
 use crate::key::Key;
-use crate::plane;
 use crate::schema::Node;
 use crate::structure::{Fault, Point, description};
 use crate::study::{Direction, Law, Modes, Reference, Study};
-use crate::{Basis, Parameter};
+use crate::{Basis, orbits, plane};
 use garde::Validate;
 use toml::Value;
 
@@ -57,11 +57,14 @@ pub(crate) fn refuse(faults: Vec<Fault>) -> Result<(), StudyError> {
 /// Everything that is wrong with the study.
 pub(crate) fn faults(study: &Study) -> Vec<Fault> {
     let mut faults = faults_of_system(study);
-    // the ends of a sweep or a map are tried on a study that is itself sound
+    // the ends of a parameter are tried on a study that is itself sound
     if faults.is_empty() {
         sweep(study, &mut faults);
         plane::map(study, &mut faults);
         plane::basins(study, &mut faults);
+        orbits::orbit(study, &mut faults);
+        orbits::branches(study, &mut faults);
+        orbits::attractors(study, &mut faults);
     }
     faults
 }
@@ -89,7 +92,9 @@ fn ranges(study: &Study) -> Vec<Fault> {
     };
     let tree = Value::try_from(study).unwrap_or(Value::Boolean(false));
     let fault = |(path, error): &(garde::Path, garde::Error)| {
-        let key = key(&path.to_string().replace('[', ".").replace(']', ""));
+        // no field of a record can be called `continue`
+        let path = path.to_string().replace("continuation", "continue");
+        let key = key(&path.replace('[', ".").replace(']', ""));
         let given = key.segments().iter().try_fold(&tree, |at, name| match at {
             Value::Array(items) => items.get(name.parse::<usize>().ok()?),
             other => other.get(name.as_str()),
@@ -237,37 +242,14 @@ fn base(study: &Study, faults: &mut Vec<Fault>) {
 
 fn sweep(study: &Study, faults: &mut Vec<Fault>) {
     let Some(sweep) = &study.sweep else { return };
-    let parameter = match parameter("sweep.parameter", &sweep.parameter) {
-        Ok(parameter) => parameter,
-        Err(fault) => return faults.push(fault),
+    let axis = Axis {
+        table: "sweep",
+        parameter: &sweep.parameter,
+        from: sweep.from,
+        to: sweep.to,
     };
-    // without people the rest of the study is still good for the empty plate; `apply` refuses the sweep
-    let nobody = study.jumper.is_empty() && sweep.parameter.starts_with("jumper.");
-    let ends = [("sweep.from", sweep.from), ("sweep.to", sweep.to)];
-    for (name, value) in ends.into_iter().filter(|_| !nobody) {
-        if let Err(error) = parameter.apply(study, value) {
-            let mut fault = wrong(name, value, &error.to_string());
-            fault.help = error.advice().map(str::to_owned);
-            faults.push(fault);
-        }
-    }
-    if sweep.from == sweep.to {
-        faults.push(wrong(
-            "sweep.to",
-            sweep.to,
-            "a value different from sweep.from is needed",
-        ));
-    }
+    axis::check(study, &[axis], |_| None, faults);
     starts(sweep.direction, &sweep.starts, faults);
-}
-
-/// The parameter named by the value of key `at`.
-pub(crate) fn parameter(at: &str, name: &str) -> Result<Parameter, Fault> {
-    Parameter::parse(name).map_err(|error| {
-        let mut fault = wrong(at, name, &error.to_string());
-        fault.help = error.advice().map(str::to_owned);
-        fault
-    })
 }
 
 fn starts(direction: Direction, starts: &[[f64; 2]], faults: &mut Vec<Fault>) {

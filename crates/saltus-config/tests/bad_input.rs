@@ -5,16 +5,31 @@ use saltus_config::{Study, StudyError, StudyErrorKind, keys, parse};
 
 /// Where zero is a legal value.
 const ZERO_IS_FINE: &[&str] = &[
+    "attractors.from",
+    "attractors.plate",
+    "attractors.to",
+    "attractors.transient",
     "base.amplitude",
     "basins.transient",
     "basins.x.from",
     "basins.x.to",
     "basins.y.from",
     "basins.y.to",
+    "continue.cloud",
+    "continue.doublings",
+    "continue.from",
+    "continue.period",
+    "continue.to",
+    "continue.transient",
     "jumper.damping_ratio",
+    "lyapunov.exponents",
+    "lyapunov.transient",
     "map.transient",
     "map.x.from", // of a damping ratio
     "map.x.to",
+    "orbit.period",
+    "orbit.segments",
+    "orbit.transient",
     "plate.damping_ratio",
     "plate.poisson_ratio",
     "simulate.transient",
@@ -37,6 +52,10 @@ const NEGATIVE_IS_FINE: &[&str] = &[
 
 /// What must be there; everything else has a documented default.
 const REQUIRED: &[&str] = &[
+    "attractors.count",
+    "attractors.from",
+    "attractors.parameter",
+    "attractors.to",
     "base.amplitude",
     "base.frequency_ratio", // or base.frequency
     "basins.x.count",
@@ -48,6 +67,12 @@ const REQUIRED: &[&str] = &[
     "basins.y.parameter",
     "basins.y.to",
     "contact.law",
+    "continue.from",
+    "continue.parameter",
+    "continue.second.from",
+    "continue.second.parameter",
+    "continue.second.to",
+    "continue.to",
     "jumper.damping_ratio",
     "jumper.mass",
     "jumper.stiffness",
@@ -148,7 +173,10 @@ fn trials(key: &str) -> Vec<(&'static str, bool)> {
         ("9000000000000000", false),
         ("true", false),
         ("1979-05-27", false),
-        ("[]", key == "sweep.starts"),
+        (
+            "[]",
+            ["sweep.starts", "continue.second.curves"].contains(&key),
+        ),
         ("[[1, \"a\"]]", false),
         ("[[1, 2, 3]]", false),
         ("{}", false),
@@ -172,6 +200,14 @@ fn is_whole(key: &str) -> bool {
         "max_switches",
         "count",
         "record",
+        "period",
+        "segments",
+        "exponents",
+        "replicas",
+        "points",
+        "doublings",
+        "cloud",
+        "starts",
     ];
     whole.contains(&name_of(key))
 }
@@ -353,6 +389,7 @@ const CONTRADICTIONS: &[(&str, &str)] = &[
         "map.x.parameter=plate.modes",
         "not a key that holds a number",
     ),
+    ("map.x.parameter=base.frequency", "two different ones"),
     ("map.x.parameter=start.z", "from the same [start]"),
     (
         "map.y.parameter=solver.tolerance",
@@ -368,6 +405,47 @@ const CONTRADICTIONS: &[(&str, &str)] = &[
     ),
     ("basins.y.parameter=start.z", "two different ones"),
     ("basins.y.to=1e7", "start.v = 10000000.0"),
+    ("orbit.period=65", "a whole number from 0 to 64"),
+    ("continue.to=0.1", "different from continue.from"),
+    ("continue.to=11", "jumper.0.damping_ratio = 11.0"),
+    (
+        "continue.parameter=solver.tolerance",
+        "not a part of the system",
+    ),
+    ("continue.parameter=start.z", "whatever the start is"),
+    (
+        "continue.parameter=attractors.plate",
+        "not a key that holds a number",
+    ),
+    (
+        "continue.parameter=base.frequency_ratio",
+        "continue.parameter is the same",
+    ),
+    (
+        "continue.second.to=0.85",
+        "different from continue.second.from",
+    ),
+    ("continue.second.from=-1", "base.frequency_ratio = -1.0"),
+    ("continue.second.parameter=start.v", "whatever the start is"),
+    (
+        "continue.second.curves=[\"PD1\", \"1\"]",
+        "continue.second.curves.1 = \"1\"",
+    ),
+    ("continue.second.curves=[\"\"]", "a label such as"),
+    ("attractors.z=[6, -2]", "[lowest, highest] is needed"),
+    ("attractors.v=[0, 1e7]", "attractors.v.1"),
+    ("attractors.z=[1, 2, 3]", "2 numbers are needed"),
+    ("attractors.to=0.1", "different from attractors.from"),
+    ("attractors.from=11", "jumper.0.damping_ratio = 11.0"),
+    ("attractors.parameter=start.z", "drawn, not swept"),
+    (
+        "attractors.parameter=solver.tolerance",
+        "not a part of the system",
+    ),
+    (
+        "attractors.parameter=continue.step",
+        "not a key that holds a number",
+    ),
     ("jumper=[]", "has no body frequency"),
     ("plate.modes='0x3'", "from 1 to 400"),
     ("plate.modes=21x21", "from 1 to 400"),
@@ -412,6 +490,9 @@ fn keys_that_contradict_each_other_are_refused() {
         let said: Vec<String> = all(&error).iter().map(ToString::to_string).collect();
         assert!(said.iter().any(|s| s.contains(part)), "{set}: {said:?}");
     }
+    let segments = ["orbit.period=2", "orbit.segments=3"].map(str::to_owned);
+    let error = parse("study.toml", &Study::paper().to_toml(), &segments).unwrap_err();
+    assert!(error.to_string().contains("orbit.period = 2"), "{error}");
     let relaxing = ["contact.law=relaxing-leg", "jumper.damping_ratio=0"].map(str::to_owned);
     let error = parse("study.toml", &Study::paper().to_toml(), &relaxing).unwrap_err();
     assert!(error.to_string().contains("relaxing-leg"), "{error}");

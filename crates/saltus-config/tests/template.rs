@@ -1,7 +1,9 @@
 //! The template, the round trip, and what the schema says.
 #![allow(clippy::unwrap_used)]
 
-use saltus_config::{Inertia, Modes, Parameter, Study, keys, paper_template, parse, schema};
+use saltus_config::{
+    AttractorsTable, Inertia, Modes, Parameter, Study, keys, paper_template, parse, schema,
+};
 use serde_json::Value;
 
 #[test]
@@ -77,6 +79,8 @@ fn tables_with_defaults_may_be_left_out() {
             sweep: None,
             map: None,
             basins: None,
+            continuation: None,
+            attractors: AttractorsTable::default(),
             ..Study::paper()
         }
     );
@@ -90,7 +94,7 @@ fn schema_describes_every_key_with_its_unit() {
         "https://json-schema.org/draft/2020-12/schema"
     );
     let keys = keys();
-    assert_eq!(keys.len(), 57, "{keys:?}");
+    assert_eq!(keys.len(), 87, "{keys:?}");
     for key in keys {
         let node = find(&schema, &key);
         let description = node["description"].as_str().unwrap_or_default();
@@ -99,7 +103,7 @@ fn schema_describes_every_key_with_its_unit() {
             description.contains('(') && description.contains(')'),
             "{key}: {description}"
         );
-        let question = ["sweep.", "map.", "basins."]
+        let question = ["sweep.", "map.", "basins.", "continue.", "attractors."]
             .iter()
             .any(|t| key.starts_with(t));
         let physical = node["type"] == "number" && !question;
@@ -222,6 +226,13 @@ fn a_parameter_refuses_what_the_file_would_refuse() {
         "sweep.from",
         "map.x.from",
         "basins.y.to",
+        "orbit.period",
+        "lyapunov.exponents",
+        "continue.from",
+        "continue.step",
+        "continue.second.to",
+        "attractors.plate",
+        "attractors.from",
         "jumper",
         "contact.law",
     ] {

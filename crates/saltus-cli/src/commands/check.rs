@@ -4,7 +4,7 @@ use crate::args::WorkArgs;
 use crate::exit::Failure;
 use crate::output;
 use saltus::physics::BaseFrequency;
-use saltus_config::Study;
+use saltus_config::{AxisTable, SecondTable, Study};
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -46,7 +46,7 @@ fn warnings(study: &Study) -> Vec<String> {
     let alone = jumpers.iter().enumerate().filter(unmoved).map(|(i, _)| {
         format!("jumper.{i} stands on a nodal line of every mode: plate and jumper cannot feel each other")
     });
-    let plane = |name, axes: [&saltus_config::AxisTable; 2]| {
+    let plane = |name, axes: [&AxisTable; 2]| {
         let mut refused = axes
             .into_iter()
             .filter_map(|axis| study.set(&axis.parameter, axis.from).err());
@@ -63,7 +63,21 @@ fn warnings(study: &Study) -> Vec<String> {
         let refused = study.set(&sweep.parameter, sweep.from).err()?;
         Some(format!("[sweep] cannot run: {refused}"))
     });
-    alone.chain(sweep).chain(map).chain(basins).collect()
+    let branches = study.continuation.iter().filter_map(|table| {
+        let refused = table.start(study).err()?;
+        Some(format!("[continue] cannot run: {refused}"))
+    });
+    let attractors = study.attractors.sweep().into_iter().filter_map(|axis| {
+        let refused = study.set(&axis.parameter, axis.from).err()?;
+        Some(format!("[attractors] cannot run: {refused}"))
+    });
+    alone
+        .chain(sweep)
+        .chain(map)
+        .chain(basins)
+        .chain(branches)
+        .chain(attractors)
+        .collect()
 }
 
 fn summary(file: &str, study: &Study, warnings: &[String]) -> Result<String, Failure> {
@@ -71,7 +85,7 @@ fn summary(file: &str, study: &Study, warnings: &[String]) -> Result<String, Fai
     let mut text = format!("{file}: valid\n");
     let mut line = |name: &str, what: String| {
         // writing to a string cannot fail
-        let _ = writeln!(text, "  {name:<9}{what}");
+        let _ = writeln!(text, "  {name:<11}{what}");
     };
     line(
         "plate",
@@ -98,35 +112,49 @@ fn summary(file: &str, study: &Study, warnings: &[String]) -> Result<String, Fai
     line("contact", study.contact_law().name().to_owned());
     line("base", base(study)?);
     line("solver", word(&study.solver.method));
-    if let Some(sweep) = &study.sweep {
-        let direction = word(&sweep.direction);
-        let what = format!(
-            "{} from {} to {}, {} values, {direction}",
-            sweep.parameter, sweep.from, sweep.to, sweep.count
-        );
-        line("sweep", what);
-    }
-    let plane = |x: &saltus_config::AxisTable, y: &saltus_config::AxisTable| {
-        let axis =
-            |a: &saltus_config::AxisTable| format!("{} from {} to {}", a.parameter, a.from, a.to);
-        format!(
-            "{} by {}, {} x {} pixels",
-            axis(x),
-            axis(y),
-            x.count,
-            y.count
-        )
-    };
-    if let Some(map) = &study.map {
-        line("map", plane(&map.x, &map.y));
-    }
-    if let Some(basins) = &study.basins {
-        line("basins", plane(&basins.x, &basins.y));
+    for (name, question) in questions(study) {
+        line(name, question);
     }
     for warning in warnings {
         line("warning", warning.clone());
     }
     Ok(text)
+}
+
+/// What is asked, table by table.
+fn questions(study: &Study) -> Vec<(&'static str, String)> {
+    let range = |name: &str, from: f64, to: f64| format!("{name} from {from} to {to}");
+    let axis = |a: &AxisTable| range(&a.parameter, a.from, a.to);
+    let plane = |x: &AxisTable, y: &AxisTable| {
+        let pixels = format!("{} x {} pixels", x.count, y.count);
+        format!("{} by {}, {pixels}", axis(x), axis(y))
+    };
+    let sweep = study.sweep.as_ref().map(|t| {
+        let values = range(&t.parameter, t.from, t.to);
+        format!("{values}, {} values, {}", t.count, word(&t.direction))
+    });
+    let map = study.map.as_ref().map(|t| plane(&t.x, &t.y));
+    let basins = study.basins.as_ref().map(|t| plane(&t.x, &t.y));
+    let branches = study.continuation.as_ref().map(|t| {
+        let curves = |s: &SecondTable| format!(", curves by {}", range(&s.parameter, s.from, s.to));
+        let curves = t.second.as_ref().map_or_else(String::new, curves);
+        range(&t.parameter, t.from, t.to) + &curves
+    });
+    let attractors = study.attractors.sweep().map(|a| {
+        let starts = study.attractors.starts;
+        format!("{}, {} values, {starts} starts", axis(&a), a.count)
+    });
+    let asked = [
+        ("sweep", sweep),
+        ("map", map),
+        ("basins", basins),
+        ("continue", branches),
+        ("attractors", attractors),
+    ];
+    let asked = asked.into_iter();
+    asked
+        .filter_map(|(name, what)| Some((name, what?)))
+        .collect()
 }
 
 fn base(study: &Study) -> Result<String, Failure> {

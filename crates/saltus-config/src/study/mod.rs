@@ -1,17 +1,23 @@
 //! The study file as records, one table each. The doc comments are the descriptions of the schema.
 
+mod attractors;
 mod base;
+mod continuation;
 mod jumper;
 mod map;
 mod modes;
+mod orbit;
 mod plate;
 mod run;
 mod sweep;
 
+pub use attractors::AttractorsTable;
 pub use base::{BaseTable, GravityTable, Reference};
+pub use continuation::{ContinueTable, SecondTable};
 pub use jumper::{ContactTable, JumperTable, Law, StartTable};
 pub use map::{AxisTable, BasinsTable, MapTable};
 pub use modes::{ModeLists, Modes};
+pub use orbit::{LyapunovTable, OrbitTable};
 pub use plate::{Basis, Inertia, PlateTable};
 pub use run::{Method, SimulateTable, SolverTable};
 pub use sweep::{Direction, SweepTable};
@@ -68,11 +74,29 @@ pub struct Study {
     #[schemars(with = "BasinsTable")]
     #[garde(dive)]
     pub basins: Option<BasinsTable>,
+    /// What `saltus orbit` seeks.
+    #[serde(default)]
+    #[garde(dive)]
+    pub orbit: OrbitTable,
+    /// What `saltus lyapunov` runs.
+    #[serde(default)]
+    #[garde(dive)]
+    pub lyapunov: LyapunovTable,
+    /// What `saltus continue` runs.
+    #[serde(rename = "continue", default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "ContinueTable")]
+    #[garde(dive)]
+    pub continuation: Option<ContinueTable>,
+    /// What `saltus attractors` runs.
+    #[serde(default)]
+    #[garde(dive)]
+    pub attractors: AttractorsTable,
 }
 
 impl Study {
     /// The case of DP section 3 with ζ_h = 0.3 and Ω equal to the body's frequency on the flexible
-    /// plate, the sweep of DP Fig. 2b, a map and basins. [`paper_template`](crate::paper_template) explains it.
+    /// plate, the sweep of DP Fig. 2b, its branches of orbits, a map, basins and attractors.
+    /// [`paper_template`](crate::paper_template) explains it.
     pub fn paper() -> Self {
         Self {
             plate: PlateTable::paper(),
@@ -88,6 +112,10 @@ impl Study {
             sweep: Some(SweepTable::paper()),
             map: Some(MapTable::paper()),
             basins: Some(BasinsTable::paper()),
+            orbit: OrbitTable::default(),
+            lyapunov: LyapunovTable::default(),
+            continuation: Some(ContinueTable::paper()),
+            attractors: AttractorsTable::paper(),
         }
     }
 
