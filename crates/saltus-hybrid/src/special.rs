@@ -16,7 +16,7 @@ macro_rules! shapes {
         $(
             // Written by `source`, and not by hand.
             #[rustfmt::skip]
-            #[allow(clippy::all)]
+            #[allow(clippy::all, unused_variables)]
             mod $name;
         )*
 
