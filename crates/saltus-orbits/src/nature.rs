@@ -3,16 +3,17 @@
 //! The name rests on tests, not on an exponent being above some number:
 //!
 //! - **chaotic**: it does not recur; the largest exponent is positive by Student's t, one-sided, with the
-//!   confidence asked for; and in the second half of the record alone a small deviation grows by more than
-//!   1/eps. What leaves an unstable cycle or torus cannot show that: it starts a rounding error away at the
-//!   nearest and has grown by 1/eps when it is somewhere else. On a torus, growth is bounded; near a
-//!   bifurcation it is slower than any exponential. The first half does not count, so that a chaotic
-//!   transient in it does not.
+//!   confidence asked for; and over the record a small deviation grows by more than 1/eps. What leaves an
+//!   unstable cycle or torus does not show that: it starts a rounding error away at the nearest and has grown
+//!   by 1/eps when it is somewhere else. On a torus, growth is bounded; near a bifurcation it is slower than
+//!   any exponential. A chaotic transient that ends within the record makes batches unlike their neighbours,
+//!   and the error large.
 //! - **quasi-periodic**: it does not recur; and the weighted Birkhoff averages of the growth over both halves
 //!   agree, and that over the whole is zero, far more closely than chance allows. With standard error s of the
-//!   plain mean, the difference of the halves would in chaos have standard deviation 2 s or more (each half
-//!   has half of the iterates, and weights only add), so it is within d of zero with a chance of at most
-//!   2 d / (2 s sqrt(2 pi)). That chance must be below one minus the confidence, for both numbers.
+//!   plain mean, the averages of the halves would in chaos differ by a normal number of standard deviation 2 s
+//!   or more (each has half of the iterates, and weights only add), which is within d of zero with a
+//!   probability of at most d / (s sqrt(2 pi)). With d the larger of that difference and the distance of the
+//!   whole from zero, this must be below one minus the confidence.
 //! - **periodic**: it recurs, and the largest exponent is negative with the confidence asked for.
 //!
 //! Everything else is undecided, with the reason. So is a slow transient near a bifurcation: its exponent
@@ -133,9 +134,9 @@ struct Evidence<'a> {
     exponent: Exponent,
     /// Probability that the exponent is positive.
     positive: f64,
-    /// Probability that the averages come out as they do by chance.
+    /// That the weighted averages come out as they do by chance.
     chance: f64,
-    /// In the second half of the record.
+    /// ln of that over the record.
     growth: f64,
 }
 
@@ -147,7 +148,7 @@ impl<'a> Evidence<'a> {
             exponent,
             positive: exponent.positive(criteria.noise),
             chance: chance(&exponent, &spectrum.weighted_largest(), criteria.noise),
-            growth: spectrum.later_growth(),
+            growth: spectrum.growth(),
         }
     }
 
@@ -182,7 +183,7 @@ impl<'a> Evidence<'a> {
     }
 }
 
-/// A bound on the chance that averages are as close to each other, and to zero, as on a torus.
+/// A bound on the chance that weighted averages are so close to each other, and to zero, in chaos.
 fn chance(exponent: &Exponent, weighted: &Weighted, noise: f64) -> f64 {
     if exponent.batches == 0 {
         return 1.0;

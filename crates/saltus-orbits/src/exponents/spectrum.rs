@@ -214,11 +214,10 @@ impl Spectrum {
         birkhoff::weighted(&self.series(usize::MAX, |row| row[0]))
     }
 
-    /// ln of the growth of the first column in the second half of the record; the mean of several.
-    pub(crate) fn later_growth(&self) -> f64 {
-        let later = |one: &Vec<f64>| one[one.len() / 2..].iter().sum::<f64>();
+    /// ln of the growth of the first column over the whole record; the mean of several.
+    pub(crate) fn growth(&self) -> f64 {
         let series = self.series(usize::MAX, |row| row[0]);
-        series.iter().map(later).sum::<f64>() / series.len().max(1) as f64
+        series.iter().flatten().sum::<f64>() / series.len().max(1) as f64
     }
 
     fn estimate_of_first(&self, iterates: usize) -> Vec<Exponent> {
