@@ -19,6 +19,9 @@
 //! Everything else is undecided, with the reason. So is a slow transient near a bifurcation: its exponent
 //! tends to zero from below, and its averages creep instead of converging.
 //!
+//! No finite record excludes chaos that ends after it. In narrow windows of the logistic map such transients
+//! last for thousands of iterates, so whoever stops early should discard as many before.
+//!
 //! A test that is repeated as the record grows errs more often than a single one, at most by the number of
 //! repetitions; to double the record before each keeps that number, and the work, small.
 
