@@ -1,0 +1,7 @@
+//! Exponents, their errors, and what is made of them, on maps whose answers are known.
+#![allow(clippy::unwrap_used)]
+
+mod errors;
+mod exponents;
+mod maps;
+mod natures;

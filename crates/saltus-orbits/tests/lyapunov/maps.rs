@@ -1,0 +1,95 @@
+//! Maps of one line whose exponents are known.
+
+use saltus_orbits::{Family, Image, Lost, Matrix, Place, Shot};
+
+/// x' and dx'/dx, row by row, from parameters and x.
+type Rule = fn(&[f64], &[f64]) -> (Vec<f64>, Vec<f64>);
+
+pub(crate) struct Toy {
+    dimension: usize,
+    rule: Rule,
+}
+
+impl Family for Toy {
+    fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
+        shots.iter().map(|shot| Ok(self.image(shot))).collect()
+    }
+}
+
+impl Toy {
+    fn image(&self, shot: &Shot<'_>) -> Image {
+        let n = self.dimension;
+        let (x, rows) = (self.rule)(shot.parameters, &shot.start.x);
+        Image {
+            place: place(&x),
+            derivative: Some(Matrix::from_fn(n, n, |i, j| rows[i * n + j])),
+            crossings: Vec::new(),
+            touches: Vec::new(),
+        }
+    }
+}
+
+pub(crate) fn place(x: &[f64]) -> Place {
+    Place {
+        modes: Vec::new(),
+        x: x.to_vec(),
+    }
+}
+
+/// x' = r x (1 - x).
+pub(crate) const LOGISTIC: Toy = Toy {
+    dimension: 1,
+    rule: |p, x| {
+        (
+            vec![p[0] * x[0] * (1.0 - x[0])],
+            vec![p[0] * (1.0 - 2.0 * x[0])],
+        )
+    },
+};
+
+/// x' = 2 x mod 1.
+pub(crate) const DOUBLING: Toy = Toy {
+    dimension: 1,
+    rule: |_, x| (vec![(2.0 * x[0]).fract()], vec![2.0]),
+};
+
+/// A tent of slope p.
+pub(crate) const TENT: Toy = Toy {
+    dimension: 1,
+    rule: |p, x| {
+        let slope = if x[0] < 0.5 { p[0] } else { -p[0] };
+        (vec![p[0] * x[0].min(1.0 - x[0])], vec![slope])
+    },
+};
+
+/// x' = x + omega - k/(2 pi) sin(2 pi x), not reduced modulo one.
+pub(crate) const CIRCLE: Toy = Toy {
+    dimension: 1,
+    rule: |p, x| {
+        let (sin, cos) = (std::f64::consts::TAU * x[0]).sin_cos();
+        let next = x[0] + p[0] - p[1] / std::f64::consts::TAU * sin;
+        (vec![next], vec![1.0 - p[1] * cos])
+    },
+};
+
+/// x' = 1 - a x^2 + y, y' = b x.
+pub(crate) const HENON: Toy = Toy {
+    dimension: 2,
+    rule: |p, x| {
+        let next = vec![1.0 - p[0] * x[0] * x[0] + x[1], p[1] * x[0]];
+        (next, vec![-2.0 * p[0] * x[0], 1.0, p[1], 0.0])
+    },
+};
+
+/// x' = r x (1 - y), y' = x.
+pub(crate) const DELAYED: Toy = Toy {
+    dimension: 2,
+    rule: |p, x| {
+        let next = vec![p[0] * x[0] * (1.0 - x[1]), x[0]];
+        (next, vec![p[0] * (1.0 - x[1]), -p[0] * x[0], 1.0, 0.0])
+    },
+};
