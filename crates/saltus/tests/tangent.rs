@@ -200,8 +200,8 @@ fn volumes_shrink_by_the_divergence() {
         let image = images(&model, std::slice::from_ref(&from), true).remove(0);
         let contact = contact_time(&from, &image.crossings);
         assert!((0.1..0.9).contains(&contact));
-        let (on, off) = (model.divergence(&[0]), model.divergence(&[1]));
-        let expected = std::f64::consts::TAU * (contact * on + (1.0 - contact) * off);
+        let dwell = [contact, 1.0 - contact].map(|part| part * std::f64::consts::TAU);
+        let expected = model.divergence(&[dwell.to_vec()]);
         let found = determinant(&image.derivative.unwrap()).ln();
         // 34 states lose some digits in the determinant
         let bound = if inertia == Inertia::Full {

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 
 use saltus_hybrid::{IntegrateError, Options};
+use saltus_orbits::ExponentError;
 
 use crate::model::ModelError;
 
@@ -70,6 +71,9 @@ pub enum StudyError {
     /// No integration.
     #[error(transparent)]
     Integrate(#[from] IntegrateError),
+    /// No exponents.
+    #[error(transparent)]
+    Exponents(#[from] ExponentError),
 }
 
 impl From<crate::physics::PhysicsError> for StudyError {

@@ -1,13 +1,13 @@
 //! Fig. 3: phase portraits and Poincare points of eight named cases.
 
 use saltus_hybrid::Point;
+use saltus_orbits::{Criteria, Nature, Recurrence, Verdict, judge};
 
 use super::{Effort, setup};
 use crate::model::{Contact, Inertia, Model, Section};
 use crate::physics::{ContactLaw, FrequencyReference};
 use crate::study::{
-    Control, Exponent, StudyError, Trajectory, in_parallel, largest_exponents, recurrence, settle,
-    simulate,
+    Control, StudyError, Trajectory, growth, in_parallel, recurrence, settle, simulate,
 };
 
 /// One panel of Fig. 3.
@@ -57,8 +57,8 @@ pub struct CaseResult {
     pub period_seconds: f64,
     /// Forcing periods after which the section repeats to 1e-6; `None` if it does not.
     pub recurrence: Option<u32>,
-    /// Largest Lyapunov exponent.
-    pub exponent: Option<Exponent>,
+    /// What the motion is, by its largest Lyapunov exponent per forcing period and its recurrence.
+    pub verdict: Verdict,
     /// Part of the time on the floor over the kept periods.
     pub contact_ratio: f64,
     /// Largest plate reaction force in the time history, in body weights.
@@ -92,19 +92,17 @@ impl CaseResult {
 
     /// In a word or two: what the numbers say.
     pub fn words(&self) -> String {
-        match (self.recurrence, self.exponent) {
-            (Some(n), _) => format!("{n}T"),
-            (None, Some(e)) if e.sign() == std::cmp::Ordering::Greater => {
-                format!(
-                    "chaotic (exponent {:.3} ± {:.3} per period)",
-                    e.per_period, e.standard_error
-                )
+        let exponent = self.verdict.exponent;
+        let (mean, error) = (exponent.per_iterate, exponent.standard_error);
+        match (self.verdict.nature, self.recurrence) {
+            (Nature::Periodic(n), _) | (_, Some(n)) => format!("{n}T"),
+            (Nature::Chaotic, _) => format!("chaotic (exponent {mean:.4} ± {error:.4} per period)"),
+            (Nature::QuasiPeriodic, _) => {
+                format!("quasi-periodic (exponent {mean:.1e} ± {error:.0e} per period)")
             }
-            (None, Some(e)) => format!(
-                "does not repeat (exponent {:.3} ± {:.3} per period)",
-                e.per_period, e.standard_error
-            ),
-            (None, None) => "does not repeat".into(),
+            (Nature::Undecided(_), _) => {
+                format!("does not repeat (exponent {mean:.4} ± {error:.4} per period)")
+            }
         }
     }
 }
@@ -148,24 +146,29 @@ pub fn run_cases(
         simulate(model, start, KEPT, HISTORY, POINTS, control)
     });
     let trajectories = trajectories.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let exponents = largest_exponents(&starts, 0, effort.exponent_periods, control)?;
+    let exponents = growth(&starts, 1, effort.exponent_periods, control)?;
     let mut out = Vec::new();
-    for (((case, (model, _)), trajectory), exponent) in cases()
+    for (((case, (model, _)), trajectory), growth) in cases()
         .into_iter()
         .zip(starts)
         .zip(trajectories)
-        .zip(exponents)
+        .zip(&exponents)
     {
         let column = |pick: fn(&Section) -> f64| -> Vec<f64> {
             trajectory.section.iter().map(pick).collect()
         };
         let (z, v) = (column(|s| s.z[0]), column(|s| s.v[0]));
+        let recurrence = recurrence(&z, &v, 1e-6);
+        let again = recurrence.map_or(Recurrence::Open, |period| {
+            let rest = 1e-6;
+            Recurrence::Recurs { period, rest }
+        });
         let contact: f64 = trajectory.contact_ratio.iter().map(|ratio| ratio[0]).sum();
         out.push(CaseResult {
             case,
             period_seconds: model.scales().period(),
-            recurrence: recurrence(&z, &v, 1e-6),
-            exponent,
+            recurrence,
+            verdict: judge(&growth.spectrum, again, &Criteria::default()),
             contact_ratio: contact / trajectory.contact_ratio.len().max(1) as f64,
             peak_force: trajectory
                 .history

@@ -1,7 +1,8 @@
 //! The statements of the paper, one by one, with our number and a verdict.
 
-use std::cmp::Ordering;
 use std::fmt::Write as _;
+
+use saltus_orbits::Nature;
 
 use super::{CaseResult, Coexistence, Diagram, RATIOS, Regime, coexistence, regimes};
 use crate::physics::{ContactLaw, FrequencyReference, Jumper, Plate};
@@ -201,12 +202,7 @@ impl Evidence<'_> {
     }
 
     fn is_chaotic(&self, tag: char) -> bool {
-        let chaotic = |result: &CaseResult| {
-            result.recurrence.is_none()
-                && result
-                    .exponent
-                    .is_some_and(|e| e.sign() == Ordering::Greater)
-        };
+        let chaotic = |result: &CaseResult| result.verdict.nature == Nature::Chaotic;
         self.case(tag).is_some_and(chaotic)
     }
 
@@ -304,9 +300,9 @@ fn f6(evidence: &Evidence<'_>) -> Finding {
         evidence.words('f'),
         evidence.case('g').map_or_else(String::new, in_pairs)
     );
-    let torus = evidence.case('f').is_some_and(|result| {
-        result.recurrence.is_none() && result.exponent.is_some_and(|e| e.sign() == Ordering::Equal)
-    });
+    let torus = evidence
+        .case('f')
+        .is_some_and(|result| result.verdict.nature == Nature::QuasiPeriodic);
     let parts = [
         starts_irregular && !windows.is_empty(),
         torus,
