@@ -111,26 +111,19 @@ fn logistic(title: &str, (low, high): (f64, f64)) -> Branches {
         }
     }
     // Squares of equal steps go round the fold: stable on one side of zero, unstable on the other.
-    let round: Vec<f64> = even(0.13, -0.41, 275)
-        .iter()
-        .map(|s| fold + s * s.abs() * s.signum())
-        .collect();
+    let round = |from: f64| -> Vec<f64> {
+        let side = even(from, -0.41, 275);
+        side.iter().map(|s| fold + s * s).collect()
+    };
+    let start = |r: f64, period: usize, end: f64| follow(period, settled(r), even(r, end, 600));
     let cycles = [
-        ("Period 1", follow(1, settled(2.8), even(2.8, 4.0, 300))),
-        (
-            "Period 2",
-            follow(2, settled(3.001), even(3.0001, 4.0, 600)),
-        ),
-        (
-            "Period 4",
-            follow(
-                4,
-                settled(3.46),
-                [even(3.46, 3.44950, 60), Vec::new()].concat(),
-            ),
-        ),
-        ("Period 4", follow(4, settled(3.46), even(3.46, 4.0, 600))),
-        ("Period 3", follow(3, settled(round[0]), round)),
+        ("Period 1", start(2.8, 1, 4.0)),
+        ("Period 2", start(3.05, 2, 3.0002)),
+        ("Period 2", start(3.05, 2, 4.0)),
+        ("Period 4", start(3.46, 4, 3.4496)),
+        ("Period 4", start(3.46, 4, 4.0)),
+        ("Period 3", follow(3, settled(fold + 0.01), round(0.1))),
+        ("Period 3", start(fold + 0.01, 3, 4.0)),
     ];
     let points = |r: f64, period: usize| {
         let mut x = settled(r);
@@ -404,7 +397,7 @@ fn attractors() -> Cloud {
 }
 
 fn parameter() -> Axis {
-    Axis::new("Frequency ratio Ω/ω_h (-)")
+    Axis::new("Frequency ratio Ω/ω_h (-)").range(0.0, 1.0)
 }
 
 /// Weight of a basin, zero where the attractor is not.

@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::bifurcation::Bifurcation;
 use super::colour::Colour;
-use super::notes::Note;
+use super::notes::{Note, Place};
 use super::panel::{Layer, Panel, Swatch};
 
 /// Curves of bifurcations in a plane of two parameters, in one colour for each kind.
@@ -88,13 +88,13 @@ impl From<BifurcationSet> for Panel {
             .iter()
             .map(|curve| line(curve, 2.2, curve.kind.colour()));
         panel.layers.extend(rims.chain(lines));
+        panel.layers.push(Layer::Frame);
         let labelled = set.curves.iter().filter(|curve| !curve.label.is_empty());
         let notes = labelled.map(|curve| Note {
             text: curve.label.clone(),
-            points: anchors(&curve.x, &curve.y, &panel),
+            place: Place::Along(curve.x.clone(), curve.y.clone()),
         });
-        let notes = Layer::Notes(notes.collect());
-        panel.layers.push(notes);
+        panel.layers.push(Layer::Notes(notes.collect()));
         panel
     }
 }
@@ -107,21 +107,4 @@ fn line(curve: &Curve, width: f64, colour: Colour) -> Layer {
         colour,
         dashed: false,
     }
-}
-
-/// Points at which a label may stand: the middle of what shows of the curve, then towards its ends.
-fn anchors(x: &[f64], y: &[f64], panel: &Panel) -> Vec<(f64, f64)> {
-    let within = |axis: &Axis, value: f64| {
-        axis.admits(value)
-            && axis
-                .range
-                .is_none_or(|(low, high)| (low..=high).contains(&value))
-    };
-    let points = x.iter().copied().zip(y.iter().copied());
-    let shown: Vec<_> = points
-        .filter(|&(x, y)| within(&panel.x, x) && within(&panel.y, y))
-        .collect();
-    let at = |share: f64| shown.get((share * shown.len() as f64) as usize).copied();
-    let shares = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9];
-    shares.into_iter().filter_map(at).collect()
 }

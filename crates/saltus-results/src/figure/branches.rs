@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::bifurcation::Bifurcation;
 use super::colour::Colour;
-use super::notes::Note;
+use super::notes::{Note, Place};
 use super::panel::{Layer, Panel, Swatch};
 use super::parts::only;
 
@@ -237,7 +237,7 @@ fn specials(panel: &mut Panel, specials: &[Special]) {
     let labelled = specials.iter().filter(|special| !special.label.is_empty());
     let notes = labelled.map(|special| Note {
         text: special.label.clone(),
-        points: special.y.iter().map(|&y| (special.x, y)).collect(),
+        place: Place::At(special.y.iter().map(|&y| (special.x, y)).collect()),
     });
     panel.layers.push(Layer::Notes(notes.collect()));
 }

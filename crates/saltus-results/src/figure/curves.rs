@@ -165,7 +165,7 @@ impl Curves {
 }
 
 /// Opacity of a band: two of them on top of each other still let a curve through.
-const BAND: f64 = 0.25;
+pub(crate) const BAND: f64 = 0.25;
 
 impl From<Curves> for Panel {
     fn from(plot: Curves) -> Self {
@@ -242,10 +242,7 @@ impl Spread {
     fn swatch(&self) -> Swatch {
         match self.bars {
             true => Swatch::Bar,
-            // Grey stands for the band of any curve.
-            false => Swatch::Shade {
-                colour: Colour::DARK,
-            },
+            false => Swatch::Band,
         }
     }
 

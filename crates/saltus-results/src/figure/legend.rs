@@ -2,6 +2,7 @@
 //! outside the axes, so it cannot cover data.
 
 use super::colour::Colour;
+use super::curves::BAND;
 use super::dash::dashed;
 use super::marks::{Ink, SHADE, Step, outline, rectangle};
 use super::panel::{Key, Panel, Swatch, Tally};
@@ -129,6 +130,16 @@ fn swatch(swatch: Swatch, x: f64, y: f64, width: f64, ink: &mut Vec<Ink>) {
             width: pen,
             colour,
         }),
+        Swatch::Band => {
+            // Grey stands for the band of any curve.
+            let colour = Colour::DARK;
+            ink.push(rectangle((x, y - 7.0), (width, 14.0), colour, BAND));
+            ink.push(Ink::Trail {
+                steps: vec![Step::Move(x, y), Step::Line(x + width, y)],
+                width: 1.8,
+                colour,
+            });
+        }
         Swatch::Bar => ink.push(Ink::Trail {
             steps: vec![
                 Step::Move(x + 3.0, y - 6.5),

@@ -129,7 +129,8 @@ pub(crate) fn draw(panel: &Panel, frame: &Frame, budget: usize, ink: &mut Vec<In
             Layer::Cells(cells) => {
                 let place = cells.place(&frame.x, &frame.y, frame.sides());
                 ink.extend(place.map(Ink::Mosaic));
-                // The cells cover the inner half of the frame's line.
+            }
+            Layer::Frame => {
                 let size = (frame.right - frame.left, frame.bottom - frame.top);
                 ink.push(outline((frame.left, frame.top), size, 1.0));
             }

@@ -5,12 +5,68 @@ use super::marks::{Frame, Ink, Step, clip, line};
 use super::panel::{Layer, Panel};
 use super::text;
 
-/// A label that belongs to any one of several points, such as those of a cycle.
+/// A label and what it belongs to.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Note {
     pub(crate) text: String,
-    /// Points (in data) beside which it may stand; the first are liked best.
-    pub(crate) points: Vec<(f64, f64)>,
+    pub(crate) place: Place,
+}
+
+/// Beside what a label may stand, in data.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Place {
+    /// Any one of several points, such as those of a cycle; the first are liked best.
+    At(Vec<(f64, f64)>),
+    /// Any part of a curve; its middle is liked best.
+    Along(Vec<f64>, Vec<f64>),
+}
+
+impl Place {
+    /// The points that show (px).
+    fn points(&self, frame: &Frame) -> Vec<(f64, f64)> {
+        match self {
+            Self::At(points) => {
+                let (x, y): (Vec<_>, Vec<_>) = points.iter().copied().unzip();
+                frame.visible(&x, &y)
+            }
+            Self::Along(x, y) => along(&line(x, y, frame)),
+        }
+    }
+}
+
+/// Points along what shows of a curve, from its middle to its ends by tenths of its length.
+fn along(steps: &[Step]) -> Vec<(f64, f64)> {
+    let segments = || steps.windows(2).filter_map(segment);
+    let whole: f64 = segments().map(length).sum();
+    let at = |share: f64| {
+        let mut left = share * whole;
+        segments().find_map(|(from, to)| {
+            let long = length((from, to));
+            if left > long {
+                left -= long;
+                return None;
+            }
+            let share = left / long.max(1e-9);
+            Some((
+                from.0 + share * (to.0 - from.0),
+                from.1 + share * (to.1 - from.1),
+            ))
+        })
+    };
+    let shares = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9];
+    shares.into_iter().filter_map(at).collect()
+}
+
+/// The ends of a step that draws.
+fn segment(pair: &[Step]) -> Option<((f64, f64), (f64, f64))> {
+    match *pair {
+        [Step::Move(a, b) | Step::Line(a, b), Step::Line(c, d)] => Some(((a, b), (c, d))),
+        _ => None,
+    }
+}
+
+fn length((from, to): ((f64, f64), (f64, f64))) -> f64 {
+    (to.0 - from.0).hypot(to.1 - from.1)
 }
 
 /// Left, top, right and bottom (px).
@@ -60,9 +116,7 @@ pub(crate) fn place(notes: &[Note], panel: &Panel, frame: &Frame) -> Vec<Ink> {
 
 fn candidates(note: &Note, width: f64, frame: &Frame) -> impl Iterator<Item = Sides> {
     let half = (0.5 * width + 1.0, 0.5 * f64::from(TICK));
-    let points = note.points.iter().filter_map(|&(x, y)| frame.point(x, y));
-    let points: Vec<_> = points.filter(|&point| frame.holds(point)).collect();
-    points.into_iter().flat_map(move |point| {
+    note.place.points(frame).into_iter().flat_map(move |point| {
         DISTANCES.into_iter().flat_map(move |distance| {
             DIRECTIONS.into_iter().map(move |(right, down)| {
                 let x = point.0 + right * distance + half.0 * sign(right);
@@ -116,13 +170,9 @@ impl Obstacles {
 
     /// Length of curves under the label (px).
     fn hidden(&self, sides: &Sides) -> f64 {
-        let length = |pair: &[Step]| match *pair {
-            [Step::Move(a, b) | Step::Line(a, b), Step::Line(c, d)] => clip(*sides, (a, b), (c, d))
-                .map_or(0.0, |(from, to)| (to.0 - from.0).hypot(to.1 - from.1)),
-            _ => 0.0,
-        };
-        let curves = self.curves.iter();
-        curves.flat_map(|steps| steps.windows(2).map(length)).sum()
+        let curves = self.curves.iter().flat_map(|steps| steps.windows(2));
+        let under = |(from, to)| clip(*sides, from, to).map_or(0.0, length);
+        curves.filter_map(segment).map(under).sum()
     }
 }
 
@@ -143,10 +193,20 @@ mod tests {
         }
     }
 
+    #[test]
+    fn a_curve_of_two_far_points_has_its_label_inside() {
+        let far = Note {
+            text: "NS".to_owned(),
+            place: Place::Along(vec![-5.0, 9.0], vec![0.5, 0.5]),
+        };
+        let words = placed(&place(&[far], &panel(), &frame()));
+        assert!((words[0].0 - 200.0).abs() < 30.0, "{words:?}");
+    }
+
     fn note(text: &str, x: f64, y: f64) -> Note {
         Note {
             text: text.to_owned(),
-            points: vec![(x, y)],
+            place: Place::At(vec![(x, y)]),
         }
     }
 

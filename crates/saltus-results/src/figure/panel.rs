@@ -87,6 +87,8 @@ pub(crate) enum Layer {
     Notes(Vec<Note>),
     /// The cells of a map, which hide the lines of the grid.
     Cells(Cells),
+    /// The frame once more, where layers before have covered the inner half of its line.
+    Frame,
 }
 
 /// An entry of the legend.
@@ -123,6 +125,7 @@ pub(crate) enum Swatch {
         width: f64,
         colour: Colour,
     },
+    Band,
     Bar,
     Symbol(Bifurcation),
     Shade {
@@ -187,7 +190,7 @@ impl Layer {
     fn extend(&self, panel: &Panel, across: &mut Extent, up: &mut Extent) {
         match self {
             // Shades lie behind the data and must not stretch the axis beyond it.
-            Self::Bands { .. } | Self::Notes(_) => {}
+            Self::Bands { .. } | Self::Notes(_) | Self::Frame => {}
             Self::Cells(cells) => {
                 cells.x.iter().for_each(|&x| across.include(&panel.x, x));
                 cells.y.iter().for_each(|&y| up.include(&panel.y, y));

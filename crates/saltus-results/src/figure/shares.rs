@@ -69,6 +69,7 @@ impl From<Shares> for Panel {
         }
         // Each area goes down to zero and hides part of the one before: areas side by side would show seams.
         panel.layers.extend(areas.into_iter().rev());
+        panel.layers.push(Layer::Frame);
         panel
     }
 }
