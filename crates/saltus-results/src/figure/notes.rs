@@ -5,6 +5,9 @@ use super::marks::{Frame, Ink, Step, clip, line};
 use super::panel::{Layer, Panel};
 use super::text;
 
+/// Points of a cycle that are tried: each costs a look at all curves.
+const ENOUGH: usize = 16;
+
 /// A label and what it belongs to.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Note {
@@ -15,7 +18,7 @@ pub(crate) struct Note {
 /// Beside what a label may stand, in data.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Place {
-    /// Any one of several points, such as those of a cycle; the first are liked best.
+    /// Any one of the first [`ENOUGH`] points that show, such as those of a cycle; the first are liked best.
     At(Vec<(f64, f64)>),
     /// Any part of a curve; its middle is liked best.
     Along(Vec<f64>, Vec<f64>),
@@ -27,7 +30,9 @@ impl Place {
         match self {
             Self::At(points) => {
                 let (x, y): (Vec<_>, Vec<_>) = points.iter().copied().unzip();
-                frame.visible(&x, &y)
+                let mut shown = frame.visible(&x, &y);
+                shown.truncate(ENOUGH);
+                shown
             }
             Self::Along(x, y) => along(&line(x, y, frame)),
         }
