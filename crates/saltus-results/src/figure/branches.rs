@@ -12,6 +12,18 @@ use super::parts::only;
 /// A cloud from brute force may lie behind them in light grey. Stable parts are drawn over unstable ones,
 /// special points over both, and their labels beside them where they hide least; a label that would touch
 /// another is left out.
+///
+/// ```
+/// use saltus_results::{Axis, Bifurcation, Branches, Figure};
+/// // The fixed point 1 − 1/r of the logistic map loses its stability at r = 3.
+/// let r = vec![2.8, 3.0, 3.2];
+/// let x = r.iter().map(|r| 1.0 - 1.0 / r).collect();
+/// let (across, up) = (Axis::new("Growth rate r (-)"), Axis::new("Population x (-)"));
+/// let branches = Branches::new("Logistic map", across, up)
+///     .branch("Period 1", r, &[true, true, false], [x])
+///     .special(Bifurcation::PeriodDoubling, "PD1", 3.0, [2.0 / 3.0]);
+/// assert!(Figure::new(branches).svg().contains("Unstable"));
+/// ```
 #[derive(Clone, Debug)]
 pub struct Branches {
     title: String,
@@ -150,28 +162,26 @@ impl Branches {
     }
 }
 
-/// Width of a branch (px), and colour and pen (px) of the points behind.
+/// Width of a branch (px).
 const WIDTH: f64 = 1.9;
-const BEHIND: Colour = Colour(188, 188, 188);
-const PEN: f64 = 1.3;
+/// Pen (px) and colour of the points behind.
+const BEHIND: (f64, Colour) = (1.3, Colour(188, 188, 188));
 
 impl From<Branches> for Panel {
     fn from(diagram: Branches) -> Self {
         let colours = diagram.colours();
         let mut panel = Self::new(diagram.title, diagram.x, diagram.y, (0.012, 0.05));
-        let mut stable = Vec::new();
-        let mut unstable = Vec::new();
+        let (pen, colour) = BEHIND;
+        let behind = diagram.cloud.map(|(label, x, y)| {
+            panel.layers.push(Layer::Dust { x, y, pen, colour });
+            label
+        });
+        let (mut stable, mut unstable) = (Vec::new(), Vec::new());
         for (branch, &colour) in diagram.branches.into_iter().zip(&colours) {
-            let swatch = Swatch::Line {
-                width: 2.2,
-                colour,
-                dotted: false,
-            };
-            panel.key(branch.label, swatch);
-            for (wanted, layers) in [(true, &mut stable), (false, &mut unstable)] {
+            for (wanted, lines) in [(true, &mut stable), (false, &mut unstable)] {
                 let (x, y) = only(&branch.x, &branch.y, &branch.stable, wanted);
                 if x.windows(2).any(|ends| ends.iter().all(|x| x.is_finite())) {
-                    layers.push(Layer::Line {
+                    lines.push(Layer::Line {
                         x,
                         y,
                         width: WIDTH,
@@ -180,26 +190,18 @@ impl From<Branches> for Panel {
                     });
                 }
             }
+            let swatch = Swatch::Line {
+                width: 2.2,
+                colour,
+                dotted: false,
+            };
+            panel.key(branch.label, swatch);
         }
         styles(&mut panel, !stable.is_empty(), !unstable.is_empty());
+        panel.layers.extend(unstable.into_iter().chain(stable));
         specials(&mut panel, &diagram.specials);
-        if let Some((label, x, y)) = diagram.cloud {
-            let (pen, colour) = (PEN, BEHIND);
-            panel.key(
-                label,
-                Swatch::Dot {
-                    radius: 2.6,
-                    colour,
-                },
-            );
-            panel.layers.insert(0, Layer::Dust { x, y, pen, colour });
-        }
-        let symbols = panel
-            .layers
-            .partition_point(|layer| matches!(layer, Layer::Dust { .. }));
-        panel
-            .layers
-            .splice(symbols..symbols, unstable.into_iter().chain(stable));
+        let radius = 2.6;
+        panel.key(behind.unwrap_or_default(), Swatch::Dot { radius, colour });
         panel
     }
 }
