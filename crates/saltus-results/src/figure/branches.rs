@@ -173,7 +173,8 @@ impl From<Branches> for Panel {
         let mut panel = Self::new(diagram.title, diagram.x, diagram.y, (0.012, 0.05));
         let (pen, colour) = BEHIND;
         let behind = diagram.cloud.map(|(label, x, y)| {
-            panel.layers.push(Layer::Dust { x, y, pen, colour });
+            let dust = Layer::Dust { x, y, pen, colour };
+            panel.layers.extend([dust, Layer::Frame]);
             label
         });
         let (mut stable, mut unstable) = (Vec::new(), Vec::new());
