@@ -20,8 +20,8 @@ pub mod table;
 pub use dataset::{Attribute, Dataset, Values, Variable};
 pub use error::ResultsError;
 pub use figure::{
-    Axis, Class, ClassMap, Cloud, Colour, ColourScale, Curves, Figure, Grid, History, Panel,
-    Portrait, ValueMap,
+    Axis, Bifurcation, BifurcationSet, Branches, Class, ClassMap, Cloud, Colour, ColourScale,
+    Curves, Figure, Grid, History, Panel, Portrait, Shares, ValueMap,
 };
 pub use folder::{ResultFolder, write_file_atomically};
 pub use page::{Fact, FigureBlock, Image, Page, Verdict};

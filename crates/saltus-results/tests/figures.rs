@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use saltus_results::{
-    Axis, Class, ClassMap, Cloud, Colour, Curves, Figure, Grid, History, Panel, Portrait,
-    ResultsError, ValueMap,
+    Axis, Bifurcation, BifurcationSet, Branches, Class, ClassMap, Cloud, Colour, Curves, Figure,
+    Grid, History, Panel, Portrait, ResultsError, Shares, ValueMap,
 };
 
 const BAD: [f64; 5] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e308, -1e308];
@@ -44,6 +44,36 @@ fn panels(x: &[f64], y: &[f64]) -> Vec<Panel> {
             .into(),
         ValueMap::new("v", grid(y, x), x, Axis::new("v & <w> (m/s²)")).into(),
     ]
+    .into_iter()
+    .chain(dynamics(x, y, &marked))
+    .collect()
+}
+
+/// Every kind of panel for branches, exponents and basins over the same data.
+fn dynamics(x: &[f64], y: &[f64], stable: &[bool]) -> Vec<Panel> {
+    let ((a, b), (c, d), (e, f)) = (axes(), axes(), axes());
+    let branches = Branches::new("b <i>", a, b)
+        .cloud("brute & force", y, x)
+        .branch("p", x, stable, [y.to_vec(), x.to_vec()])
+        .branch("", y, stable, []);
+    let kinds = Bifurcation::ALL.into_iter().zip(x.iter().copied());
+    let branches = kinds.fold(branches, |branches, (kind, x)| {
+        branches.special(kind, "<PD>", x, y)
+    });
+    let set = BifurcationSet::over(ClassMap::new("", grid(x, y), [0, 1, 2], two_classes()))
+        .curve(Bifurcation::Fold, "SN & <1>", x, y)
+        .curve(Bifurcation::Grazing, "", y, x);
+    let shares = Shares::new("s", c, x, d)
+        .share("one & two", y)
+        .share("t", x);
+    let curves = Curves::new("λ", e, f.logarithmic())
+        .line("a", x, y)
+        .band("± <1>", y, x)
+        .dots("b", x, y)
+        .bars("& 95 %", x, y)
+        .shade("chaos", &[(0.1, 0.2), (f64::NAN, 1.0)])
+        .level("zero", 0.0);
+    vec![branches.into(), set.into(), shares.into(), curves.into()]
 }
 
 /// A grid of up to nine cells.
@@ -137,12 +167,21 @@ fn an_empty_grid_is_a_sheet() {
 fn a_fixed_range_keeps_marks_inside_the_frame() {
     let (x, y) = noise(2000);
     let axis = || Axis::new("x").range(0.4, 0.6);
-    let panels: [Panel; 2] = [
+    let panels: [Panel; 4] = [
         Cloud::new("", axis(), axis())
             .series("a", &x[..], &y[..])
             .into(),
         Curves::new("", axis(), axis())
             .line("a", &x[..], &y[..])
+            .band("b", &x[..], &y[..])
+            .bars("c", &x[..], &y[..])
+            .into(),
+        Branches::new("", axis(), axis())
+            .branch("a", &x[..], &[false; 2000], [y.clone()])
+            .special(Bifurcation::Fold, "b", 0.5, &y[..])
+            .into(),
+        Shares::new("", axis(), [0.0, 1.0], axis())
+            .share("a", [0.3, 0.9])
             .into(),
     ];
     let svg = Figure::grid(2, panels).svg();
@@ -344,4 +383,196 @@ fn useless_grids_make_an_empty_map() {
         check_svg(&figure.svg());
         figure.png(0.6).unwrap();
     }
+}
+
+/// How many pixels of the figure have this very colour, at one pixel per unit.
+fn count(figure: &Figure, colour: Colour) -> usize {
+    let (_, _, pixels) = pixels(&figure.png(1.0).unwrap());
+    let wanted = [colour.0, colour.1, colour.2];
+    pixels.chunks_exact(3).filter(|p| **p == wanted).count()
+}
+
+/// An axis from 0 to 1.
+fn unit(label: &str) -> Axis {
+    Axis::new(label).range(0.0, 1.0)
+}
+
+#[test]
+fn unstable_parts_are_broken_and_stable_ones_whole() {
+    // The step from 0.4 to 0.5 has an unstable end: the stable part is 0.4 of the width.
+    let x: Vec<f64> = (0..=10).map(|i| f64::from(i) / 10.0).collect();
+    let stable: Vec<bool> = (0..=10).map(|i| i < 5).collect();
+    let figure = |stable: &[bool]| {
+        let branches = Branches::new("", unit("x"), unit("y"));
+        Figure::new(branches.branch("", &x[..], stable, [vec![0.5; 11]])).plot_size(400.0, 200.0)
+    };
+    // A line of 1.9 px has its full colour in one row of pixels at least.
+    let inked = |stable: &[bool]| count(&figure(stable), Colour::BLUE) as f64;
+    let (whole, mixed, broken) = (inked(&[true; 11]), inked(&stable), inked(&[false; 11]));
+    // Of 11 px the pen rests 4.5, and the pixels at round ends have not the full colour.
+    let share = broken / whole;
+    assert!((share - 6.5 / 11.0).abs() < 0.04, "{share}");
+    let expected = 0.4 * whole + 0.6 * broken;
+    assert!(
+        (mixed - expected).abs() < 0.02 * whole,
+        "{mixed} for {expected}"
+    );
+    let text = letters(&figure(&[true; 11]));
+    assert!(
+        text.contains("Stable") && !text.contains("Unstable"),
+        "{text}"
+    );
+}
+
+#[test]
+fn branches_of_one_label_share_a_colour_and_the_legend_names_what_occurs() {
+    let (x, stable) = ([0.0, 1.0], [true, true]);
+    let branches = Branches::new("", unit("x"), unit("y"))
+        .branch("Period 1", x, &stable, [vec![0.2; 2]])
+        .branch("Period 2", x, &stable, [vec![0.4; 2], vec![0.6; 2]])
+        .branch("Period 1", x, &stable, [vec![0.8; 2]])
+        .special(Bifurcation::Grazing, "G1", 0.5, [0.2]);
+    let figure = Figure::new(branches);
+    let text = letters(&figure);
+    // `letters` sees each text as that of its element and as itself.
+    assert_eq!(text.matches("Period 1").count(), 2, "{text}");
+    assert!(text.contains("Grazing") && text.contains("G1"), "{text}");
+    for absent in ["Fold", "Unstable", "Period doubling"] {
+        assert!(!text.contains(absent), "{absent}: {text}");
+    }
+    let (one, two) = (
+        count(&figure, Colour::BLUE),
+        count(&figure, Colour::VERMILLION),
+    );
+    // Each period has two lines; a symbol hides some pixels of one.
+    assert!(one.abs_diff(two) < 40 && one > 1400, "{one} {two}");
+    assert_eq!(count(&figure, Colour::GREEN), 0);
+}
+
+#[test]
+fn a_crowd_of_labels_loses_some_and_keeps_all_symbols() {
+    let crowd = (0..60).fold(Branches::new("", unit("x"), unit("y")), |crowd, i| {
+        crowd.special(Bifurcation::Fold, format!("SN{i}"), 0.5, [0.5])
+    });
+    let figure = Figure::new(crowd);
+    let shown = letters(&figure).matches("SN").count() / 2;
+    assert!((3..60).contains(&shown), "{shown}");
+    // A symbol is one area; the legend has one more.
+    assert_eq!(figure.svg().matches("stroke-width=\"0\"").count(), 61);
+}
+
+#[test]
+fn a_map_keeps_its_axes_below_curves() {
+    let map = || {
+        let grid = Grid::new(Axis::new("x"), [0.0, 1.0], Axis::new("y"), [0.0, 1.0]);
+        ClassMap::new("", grid, [0, 1, 1, 0], two_classes())
+    };
+    let far = [-7.0, 9.0];
+    let set = BifurcationSet::over(map()).curve(Bifurcation::NeimarkSacker, "NS", far, far);
+    let (alone, below) = (Figure::new(map()), Figure::new(set));
+    assert_eq!(
+        embedded(&alone.svg(), (2, 2)),
+        embedded(&below.svg(), (2, 2))
+    );
+    let text = letters(&below);
+    let ticks = letters(&alone);
+    assert!(ticks.contains("0.5") && !text.contains("9"), "{text}");
+    assert!(text.contains("NS") && text.contains("Neimark"), "{text}");
+    assert!(count(&below, Bifurcation::NeimarkSacker.colour()) > 700);
+}
+
+#[test]
+fn a_cycle_shows_in_front_of_chaos_whatever_the_order() {
+    let (x, y) = noise(60_000);
+    let line: Vec<f64> = (0..2000).map(|i| f64::from(i) / 2000.0).collect();
+    let cycle = |cloud: Cloud| cloud.series("cycle", &line[..], vec![0.5; 2000]);
+    let chaos = |cloud: Cloud| cloud.series("chaos", &x[..], &y[..]);
+    let empty = || Cloud::new("", unit("x"), unit("y")).apart();
+    let [first, second] = [0, 1].map(|number| Colour::ATTRACTORS[number]);
+    let below = count(&Figure::new(cycle(chaos(empty()))), second);
+    let above = count(&Figure::new(chaos(cycle(empty()))), first);
+    assert!(below > 700 && above.abs_diff(below) < 20, "{above} {below}");
+}
+
+#[test]
+fn shares_that_add_up_fill_the_frame_without_seams() {
+    let at = [0.0, 0.3, 1.0];
+    let stack = Shares::new("", unit("x"), at, unit("y"))
+        .share("one", [0.2, 0.7, 0.4])
+        .share("two", [0.8, 0.3, 0.6])
+        .colour(Colour::ORANGE);
+    let figure = Figure::new(stack).plot_size(211.0, 157.0);
+    let (one, two) = (
+        count(&figure, Colour::ATTRACTORS[0]),
+        count(&figure, Colour::ORANGE),
+    );
+    let plot = 209.0 * 155.0;
+    // Along the border between both, two pixels a column at most have neither colour.
+    let both = (one + two) as f64;
+    assert!(
+        both > plot - 3.0 * 211.0 && both < plot + 600.0,
+        "{both} of {plot}"
+    );
+    // The mean of the first share by the trapezoidal rule; its patch in the legend is some 200 pixels.
+    let share = one as f64 / both;
+    assert!((share - 0.52).abs() < 0.02, "{share}");
+}
+
+#[test]
+fn a_share_that_is_not_known_leaves_a_gap_above_it() {
+    let at: Vec<f64> = (0..=10).map(|i| f64::from(i) / 10.0).collect();
+    let mut unknown = vec![0.3; 11];
+    unknown[5] = f64::NAN;
+    let figure = |upper: &[f64]| {
+        let stack = Shares::new("", unit("x"), &at[..], unit("y"));
+        let stack = stack.share("low", vec![0.5; 11]).share("high", upper);
+        Figure::new(stack).plot_size(400.0, 200.0)
+    };
+    let [low, high] = [0, 1].map(|number| Colour::ATTRACTORS[number]);
+    let (whole, gap) = (figure(&[0.3; 11]), figure(&unknown));
+    assert_eq!(count(&whole, low), count(&gap, low));
+    let (whole, gap) = (count(&whole, high) as f64, count(&gap, high) as f64);
+    // Two of ten steps are lost; the legend's patch counts a little.
+    assert!((gap / whole - 0.8).abs() < 0.02, "{gap} of {whole}");
+}
+
+#[test]
+fn a_band_and_bars_reach_from_low_to_high() {
+    let x: Vec<f64> = (0..=20).map(|i| f64::from(i) / 20.0).collect();
+    let curves = || Curves::new("", unit("x"), unit("y")).line("λ", &x[..], vec![0.5; 21]);
+    let plot = |curves: Curves| Figure::new(curves).plot_size(400.0, 200.0);
+    let (low, high) = (vec![0.3; 21], vec![0.7; 21]);
+    let banded = plot(curves().band("± one standard error", &low[..], &high[..]));
+    // A quarter of blue over white, as the backend rounds it.
+    let (_, _, seen) = pixels(&banded.png(1.0).unwrap());
+    let tinted =
+        |p: &&[u8]| p[0].abs_diff(191) < 3 && p[1].abs_diff(220) < 3 && p[2].abs_diff(236) < 3;
+    let area = seen.chunks_exact(3).filter(tinted).count() as f64;
+    // 80 of 200 rows, less the line and a line of the grid each tenth or so.
+    assert!((0.85..1.0).contains(&(area / (400.0 * 80.0))), "{area}");
+    let barred = plot(curves().bars("95 %", &low[..], &high[..]));
+    let more = inked(&barred.png(1.0).unwrap()).2 > inked(&plot(curves()).png(1.0).unwrap()).2;
+    assert!(more && letters(&barred).contains("95 %") && letters(&banded).contains("± one"));
+}
+
+#[test]
+fn intervals_by_label_have_colours_of_their_own() {
+    let curves = Curves::new("", unit("x"), unit("y"))
+        .shade("Periodic", &[(0.0, 0.5)])
+        .shade("Chaotic", &[(0.5, 1.0)])
+        .level("Zero", 0.0);
+    let figure = Figure::new(curves);
+    let svg = figure.svg();
+    for colour in [Colour::SKY, Colour::VERMILLION, Colour::YELLOW] {
+        let shades = svg.matches(&format!("fill=\"{}\"", colour.hex())).count();
+        // One in the frame and one in the legend.
+        assert_eq!(shades, if colour == Colour::VERMILLION { 0 } else { 2 });
+    }
+    let text = letters(&figure);
+    assert!(
+        ["Periodic", "Chaotic", "Zero"]
+            .iter()
+            .all(|word| text.contains(word)),
+        "{text}"
+    );
 }

@@ -67,6 +67,11 @@ impl Extent {
             self.high = self.high.max(value);
         }
     }
+
+    /// The least and the largest value; `None` if there were none.
+    pub(crate) fn limits(self) -> Option<(f64, f64)> {
+        (self.low <= self.high).then_some((self.low, self.high))
+    }
 }
 
 /// A resolved axis: data to axis units (decades, or multiples of `unit`) to pixels.
@@ -174,6 +179,7 @@ impl Scale {
     pub(crate) fn pixel(&self, value: f64) -> Option<f64> {
         self.units(value)
             .map(|units| self.origin + (units - self.low) * self.slope)
+            .filter(|pixel| pixel.is_finite())
     }
 
     /// The label, with the power of ten that the ticks leave out.

@@ -127,7 +127,11 @@ impl Bar {
                 (left + 0.5 * WIDTH, base + height),
                 (left + WIDTH, base),
             ];
-            ink.push(Ink::Wedge { corners, colour });
+            ink.push(Ink::Area {
+                corners: corners.to_vec(),
+                colour,
+                opacity: 1.0,
+            });
             ink.push(Ink::Trail {
                 steps: vec![
                     Step::Move(corners[0].0, corners[0].1),

@@ -3,18 +3,21 @@
 use super::axis::Axis;
 use super::colour::Colour;
 use super::panel::{Layer, Panel, Swatch};
+use std::cmp::Reverse;
 
 /// Several clouds of points over a common parameter.
 ///
 /// The first series is drawn at the bottom with the largest and lightest dots, each later one
 /// smaller and on top. Where two series coincide the later shows its dot with a rim of the earlier;
 /// where only one is present its bare dot shows. Nothing is transparent, so a colour means one thing.
+/// Series that cannot coincide, such as attractors, are better told [`apart`](Self::apart).
 #[derive(Clone, Debug)]
 pub struct Cloud {
     title: String,
     x: Axis,
     y: Axis,
     series: Vec<Series>,
+    apart: bool,
     flags: Vec<(f64, String)>,
 }
 
@@ -34,6 +37,7 @@ impl Cloud {
             x,
             y,
             series: Vec::new(),
+            apart: false,
             flags: Vec::new(),
         }
     }
@@ -65,6 +69,14 @@ impl Cloud {
         self
     }
 
+    /// Draws the series as sets of which each has points of its own: dots of one size in the order of
+    /// [`Colour::ATTRACTORS`], the series with the fewest points on top, so that a cycle shows before chaos.
+    #[must_use]
+    pub fn apart(mut self) -> Self {
+        self.apart = true;
+        self
+    }
+
     /// A vertical line at `x` with a label above the frame.
     #[must_use]
     pub fn flag(mut self, x: f64, label: impl Into<String>) -> Self {
@@ -72,6 +84,9 @@ impl Cloud {
         self
     }
 }
+
+/// Diameter (px) of the dots of series that are apart.
+const APART: f64 = 2.2;
 
 /// Diameter (px) of the dots of series `index` of `count`: from wide below to fine on top.
 fn pen(index: usize, count: usize) -> f64 {
@@ -90,9 +105,17 @@ impl From<Cloud> for Panel {
         let mut panel = Self::new(cloud.title, cloud.x, cloud.y, (0.012, 0.05));
         panel.flags = cloud.flags;
         let count = cloud.series.len();
+        let order: &[Colour] = match cloud.apart {
+            true => &Colour::ATTRACTORS,
+            false => &Colour::NESTED,
+        };
         for (index, series) in cloud.series.into_iter().enumerate() {
-            let colour = series.colour.unwrap_or(Colour::of(&Colour::NESTED, index));
-            let pen = pen(index, count);
+            let colour = series.colour.unwrap_or(Colour::of(order, index));
+            let pen = if cloud.apart {
+                APART
+            } else {
+                pen(index, count)
+            };
             panel.key(
                 series.label,
                 Swatch::Dot {
@@ -105,6 +128,12 @@ impl From<Cloud> for Panel {
                 y: series.y,
                 pen,
                 colour,
+            });
+        }
+        if cloud.apart {
+            panel.layers.sort_by_key(|layer| match layer {
+                Layer::Dust { x, .. } => Reverse(x.len()),
+                _ => Reverse(0),
             });
         }
         panel

@@ -70,6 +70,27 @@ impl Colour {
         Self::BLACK,
     ];
 
+    /// Order for sets side by side, such as attractors and their basins. They were chosen by computer so that
+    /// any two, and each and white, differ for normal and for colour-blind eyes (test
+    /// `attractors_differ_for_all_eyes`); only one is nearly black, since thin lines show hues poorly.
+    pub const ATTRACTORS: [Self; 12] = [
+        Self(53, 67, 255),
+        Self(48, 182, 2),
+        Self(144, 38, 5),
+        Self(71, 206, 255),
+        Self(176, 0, 176),
+        Self(0, 0, 0),
+        Self(250, 157, 170),
+        Self(0, 90, 102),
+        Self(179, 217, 0),
+        Self(158, 131, 255),
+        Self(130, 119, 76),
+        Self(245, 69, 169),
+    ];
+
+    /// Order for shades behind curves: those that differ most when drawn with little opacity.
+    pub(crate) const SHADES: [Self; 4] = [Self::SKY, Self::YELLOW, Self::VERMILLION, Self::DARK];
+
     /// Order for nested marks: light below, dark on top.
     pub(crate) const NESTED: [Self; 6] = [
         Self::SKY,
@@ -195,14 +216,31 @@ mod tests {
             for &two in &classes[..i] {
                 assert!((grey(one) - grey(two)).abs() > 0.05, "{one:?} {two:?}");
                 // Yellow-blue blindness, the last, is rarer than one in ten thousand.
-                for (eye, least) in EYES.iter().zip([0.13, 0.09, 0.09, 0.07]) {
-                    let (a, b) = (
-                        oklab(times(eye, linear(one))),
-                        oklab(times(eye, linear(two))),
-                    );
-                    let distance = (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
-                    assert!(distance > least, "{one:?} {two:?}: {distance}");
-                }
+                differ(one, two, [0.13, 0.09, 0.09, 0.07]);
+            }
+        }
+    }
+
+    /// Asserts that two colours are as far apart as `least` for each kind of eyes.
+    fn differ(one: Colour, two: Colour, least: [f64; 4]) {
+        for (eye, least) in EYES.iter().zip(least) {
+            let (a, b) = (
+                oklab(times(eye, linear(one))),
+                oklab(times(eye, linear(two))),
+            );
+            let distance = (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
+            assert!(distance > least, "{one:?} {two:?}: {distance}");
+        }
+    }
+
+    #[test]
+    fn attractors_differ_for_all_eyes() {
+        let mut colours = Colour::ATTRACTORS.to_vec();
+        colours.push(Colour(255, 255, 255));
+        for (i, &one) in colours.iter().enumerate() {
+            for &two in &colours[..i] {
+                // Farther than the classes of a map, which differ in grey also.
+                differ(one, two, [0.18, 0.13, 0.13, 0.11]);
             }
         }
     }

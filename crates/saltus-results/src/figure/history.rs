@@ -43,6 +43,7 @@ impl History {
             y: y.into(),
             width: 1.6,
             colour,
+            dashed: false,
         });
         self
     }
@@ -50,23 +51,14 @@ impl History {
     /// Shades intervals of time; overlapping ones are joined.
     #[must_use]
     pub fn shade(mut self, label: impl Into<String>, intervals: &[(f64, f64)]) -> Self {
-        let colour = Colour::SKY;
-        self.panel.key(label.into(), Swatch::Shade { colour });
-        self.panel.layers.insert(
-            0,
-            Layer::Bands {
-                intervals: joined(intervals),
-                colour,
-            },
-        );
+        self.panel.shade(label.into(), intervals, Colour::SKY);
         self
     }
 
     /// A dashed horizontal line, such as the body weight.
     #[must_use]
     pub fn level(mut self, label: impl Into<String>, y: f64) -> Self {
-        self.panel.key(label.into(), Swatch::Dashes);
-        self.panel.layers.push(Layer::Level { y });
+        self.panel.level(label.into(), y);
         self
     }
 }
@@ -74,40 +66,5 @@ impl History {
 impl From<History> for Panel {
     fn from(history: History) -> Self {
         history.panel
-    }
-}
-
-/// Intervals in order and disjoint, so that no part is shaded twice.
-fn joined(intervals: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    let mut sorted: Vec<_> = intervals
-        .iter()
-        .copied()
-        .filter(|(a, b)| a.is_finite() && b > a)
-        .collect();
-    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut joined: Vec<(f64, f64)> = Vec::new();
-    for (start, end) in sorted {
-        match joined.last_mut() {
-            Some(last) if start <= last.1 => last.1 = last.1.max(end),
-            _ => joined.push((start, end)),
-        }
-    }
-    joined
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn overlapping_shades_are_joined() {
-        let intervals = [
-            (3.0, 4.0),
-            (0.0, 1.0),
-            (0.5, 2.0),
-            (f64::NAN, 1.0),
-            (9.0, 8.0),
-        ];
-        assert_eq!(joined(&intervals), [(0.0, 2.0), (3.0, 4.0)]);
     }
 }

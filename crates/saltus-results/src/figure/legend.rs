@@ -2,7 +2,9 @@
 //! outside the axes, so it cannot cover data.
 
 use super::colour::Colour;
-use super::marks::{Ink, Step, dashes, outline};
+use super::curves::BAND;
+use super::dash::dashed;
+use super::marks::{Ink, SHADE, Step, outline, rectangle};
 use super::panel::{Key, Panel, Swatch, Tally};
 use super::text;
 use kuva::render::render::{Primitive, TextAnchor};
@@ -109,7 +111,7 @@ pub(crate) fn draw(
 /// Room of the swatch (px): a dot needs less than a line.
 fn swatch_width(key: &Key) -> f64 {
     match key.swatch {
-        Swatch::Dot { .. } => 12.0,
+        Swatch::Dot { .. } | Swatch::Symbol(_) | Swatch::Bar => 12.0,
         Swatch::Patch { .. } => 18.0,
         _ => 26.0,
     }
@@ -123,21 +125,38 @@ fn swatch(swatch: Swatch, x: f64, y: f64, width: f64, ink: &mut Vec<Ink>) {
             radius,
             colour,
         }),
-        Swatch::Dashes => ink.push(dashes((x, y), (x + width, y))),
-        Swatch::Shade { colour } => {
-            ink.push(Ink::Shade {
-                corner: (x, y - 7.0),
-                size: (width, 14.0),
+        Swatch::Dashed { width: pen, colour } => ink.push(Ink::Trail {
+            steps: dashed(&[Step::Move(x, y), Step::Line(x + width, y)]),
+            width: pen,
+            colour,
+        }),
+        Swatch::Band => {
+            // Grey stands for the band of any curve.
+            let colour = Colour::DARK;
+            ink.push(rectangle((x, y - 7.0), (width, 14.0), colour, BAND));
+            ink.push(Ink::Trail {
+                steps: vec![Step::Move(x, y), Step::Line(x + width, y)],
+                width: 1.8,
                 colour,
             });
         }
+        Swatch::Bar => ink.push(Ink::Trail {
+            steps: vec![
+                Step::Move(x + 3.0, y - 6.5),
+                Step::Line(x + 9.0, y - 6.5),
+                Step::Move(x + 3.0, y + 6.5),
+                Step::Line(x + 9.0, y + 6.5),
+                Step::Move(x + 6.0, y - 6.5),
+                Step::Line(x + 6.0, y + 6.5),
+            ],
+            width: 1.3,
+            colour: Colour::DARK,
+        }),
+        Swatch::Symbol(kind) => ink.extend(kind.symbol(centre)),
+        Swatch::Shade { colour } => ink.push(rectangle((x, y - 7.0), (width, 14.0), colour, SHADE)),
         Swatch::Patch { colour } => {
             let (corner, size) = ((x, y - 7.0), (width, 14.0));
-            ink.push(Ink::Block {
-                corner,
-                size,
-                colour,
-            });
+            ink.push(rectangle(corner, size, colour, 1.0));
             ink.push(outline(corner, size, 0.7));
         }
         Swatch::Line {

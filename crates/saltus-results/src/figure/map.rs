@@ -245,6 +245,7 @@ impl Panel {
                 colours,
                 mixing,
             }));
+            self.layers.push(Layer::Frame);
         }
     }
 }

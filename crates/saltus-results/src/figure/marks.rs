@@ -1,10 +1,13 @@
 //! Layers to marks in pixels. Every coordinate is finite and inside the frame when it leaves here, so
 //! neither backend needs a clip path, and a dot at the edge stays whole.
 
+use super::area;
 use super::axis::Scale;
 use super::colour::Colour;
+use super::dash::dashed;
 use super::mosaic::Mosaic;
-use super::panel::{Layer, Panel};
+use super::notes;
+use super::panel::{Layer, Panel, REFERENCE};
 use super::thin::{Stroke, polyline, strokes_within};
 
 /// The plot area of a panel (px) and the scales of its axes.
@@ -21,46 +24,55 @@ pub(crate) struct Frame {
 const LINE_VERTICES: usize = 40_000;
 
 impl Frame {
-    fn point(&self, x: f64, y: f64) -> Option<(f64, f64)> {
+    pub(crate) fn point(&self, x: f64, y: f64) -> Option<(f64, f64)> {
         Some((self.x.pixel(x)?, self.y.pixel(y)?))
     }
 
     /// Inside the frame, with a hair of tolerance for rounding at its edge.
-    fn holds(&self, point: (f64, f64)) -> bool {
+    pub(crate) fn holds(&self, point: (f64, f64)) -> bool {
         (self.left - 0.01..=self.right + 0.01).contains(&point.0)
             && (self.top - 0.01..=self.bottom + 0.01).contains(&point.1)
     }
 
     /// Pixels of the points that show.
-    fn visible(&self, x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
+    pub(crate) fn visible(&self, x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
         let points = x.iter().zip(y).filter_map(|(&x, &y)| self.point(x, y));
         points.filter(|&point| self.holds(point)).collect()
     }
 
-    /// The part of a step between two pixels that lies inside the frame (Liang & Barsky 1984).
-    fn clipped(&self, from: (f64, f64), to: (f64, f64)) -> Option<((f64, f64), (f64, f64))> {
-        let (dx, dy) = (to.0 - from.0, to.1 - from.1);
-        let (mut start, mut end) = (0.0_f64, 1.0_f64);
-        let sides = [
-            (-dx, from.0 - self.left),
-            (dx, self.right - from.0),
-            (-dy, from.1 - self.top),
-            (dy, self.bottom - from.1),
-        ];
-        for (speed, room) in sides {
-            if speed == 0.0 {
-                if room < 0.0 {
-                    return None;
-                }
-            } else if speed < 0.0 {
-                start = start.max(room / speed);
-            } else {
-                end = end.min(room / speed);
-            }
-        }
-        let at = |t: f64| (from.0 + t * dx, from.1 + t * dy);
-        (start <= end).then(|| (at(start), at(end)))
+    /// Left, top, right and bottom (px).
+    pub(crate) fn sides(&self) -> [f64; 4] {
+        [self.left, self.top, self.right, self.bottom]
     }
+}
+
+/// The part of a step between two pixels that lies inside a rectangle (Liang & Barsky 1984).
+pub(crate) fn clip(
+    [left, top, right, bottom]: [f64; 4],
+    from: (f64, f64),
+    to: (f64, f64),
+) -> Option<((f64, f64), (f64, f64))> {
+    let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+    let (mut start, mut end) = (0.0_f64, 1.0_f64);
+    let sides = [
+        (-dx, from.0 - left),
+        (dx, right - from.0),
+        (-dy, from.1 - top),
+        (dy, bottom - from.1),
+    ];
+    for (speed, room) in sides {
+        if speed == 0.0 {
+            if room < 0.0 {
+                return None;
+            }
+        } else if speed < 0.0 {
+            start = start.max(room / speed);
+        } else {
+            end = end.min(room / speed);
+        }
+    }
+    let at = |t: f64| (from.0 + t * dx, from.1 + t * dy);
+    (start <= end).then(|| (at(start), at(end)))
 }
 
 /// A mark in pixels of the SVG, ready for either backend.
@@ -78,22 +90,17 @@ pub(crate) enum Ink {
         radius: f64,
         colour: Colour,
     },
-    /// A translucent rectangle, through which the grid stays visible.
-    Shade {
-        corner: (f64, f64),
-        size: (f64, f64),
+    /// A filled polygon; the grid stays visible through one that is translucent.
+    Area {
+        corners: Vec<(f64, f64)>,
         colour: Colour,
+        opacity: f64,
     },
-    /// A solid rectangle.
-    Block {
-        corner: (f64, f64),
-        size: (f64, f64),
-        colour: Colour,
-    },
-    /// A solid triangle.
-    Wedge {
-        corners: [(f64, f64); 3],
-        colour: Colour,
+    /// Type of the size of ticks with a white rim.
+    Word {
+        left: f64,
+        baseline: f64,
+        content: String,
     },
     /// The cells of a map.
     Mosaic(Mosaic),
@@ -106,9 +113,10 @@ pub(crate) enum Step {
     Line(f64, f64),
 }
 
-/// Opacity of a shade, and width of the rim of a dot (px).
+/// Opacity of a shade, width of the rim of a dot, and of the pen that draws the rim of type (px).
 pub(crate) const SHADE: f64 = 0.3;
 pub(crate) const RIM: f64 = 0.9;
+pub(crate) const HALO: f64 = 3.0;
 
 /// Draws the layers of `panel`, with at most about `budget` strokes for its clouds.
 pub(crate) fn draw(panel: &Panel, frame: &Frame, budget: usize, ink: &mut Vec<Ink>) {
@@ -119,9 +127,10 @@ pub(crate) fn draw(panel: &Panel, frame: &Frame, budget: usize, ink: &mut Vec<In
     for layer in &panel.layers {
         match layer {
             Layer::Cells(cells) => {
-                let sides = [frame.left, frame.top, frame.right, frame.bottom];
-                ink.extend(cells.place(&frame.x, &frame.y, sides).map(Ink::Mosaic));
-                // The cells cover the inner half of the frame's line.
+                let place = cells.place(&frame.x, &frame.y, frame.sides());
+                ink.extend(place.map(Ink::Mosaic));
+            }
+            Layer::Frame => {
                 let size = (frame.right - frame.left, frame.bottom - frame.top);
                 ink.push(outline((frame.left, frame.top), size, 1.0));
             }
@@ -132,13 +141,44 @@ pub(crate) fn draw(panel: &Panel, frame: &Frame, budget: usize, ink: &mut Vec<In
                 y,
                 width,
                 colour,
+                dashed: broken,
             } => {
+                let whole = line(x, y, frame);
                 ink.push(Ink::Trail {
-                    steps: line(x, y, frame),
+                    steps: if *broken { dashed(&whole) } else { whole },
                     width: *width,
                     colour: *colour,
                 });
             }
+            Layer::Area {
+                x,
+                low,
+                high,
+                colour,
+                opacity,
+            } => {
+                let areas = area::between(x, low, high, frame).into_iter();
+                ink.extend(areas.map(|corners| Ink::Area {
+                    corners,
+                    colour: *colour,
+                    opacity: *opacity,
+                }));
+            }
+            Layer::Bars {
+                x,
+                low,
+                high,
+                colour,
+            } => ink.push(Ink::Trail {
+                steps: bars(x, low, high, frame),
+                width: 1.3,
+                colour: *colour,
+            }),
+            Layer::Symbols { kind, x, y } => {
+                let points = frame.visible(x, y).into_iter();
+                ink.extend(points.flat_map(|centre| kind.symbol(centre)));
+            }
+            Layer::Notes(notes) => ink.extend(notes::place(notes, panel, frame)),
             Layer::Dots {
                 x,
                 y,
@@ -190,7 +230,7 @@ fn stroke(stroke: &Stroke) -> [Step; 2] {
 }
 
 /// The visible parts of a line, in runs between points that are not finite.
-fn line(x: &[f64], y: &[f64], frame: &Frame) -> Vec<Step> {
+pub(crate) fn line(x: &[f64], y: &[f64], frame: &Frame) -> Vec<Step> {
     let pixels: Vec<_> = x.iter().zip(y).map(|(&x, &y)| frame.point(x, y)).collect();
     let mut steps = Vec::new();
     for run in pixels.split(Option::is_none) {
@@ -205,7 +245,7 @@ fn line(x: &[f64], y: &[f64], frame: &Frame) -> Vec<Step> {
 fn append_run(run: &[(f64, f64)], frame: &Frame, steps: &mut Vec<Step>) {
     let mut pen = None;
     for step in run.windows(2) {
-        let Some((from, to)) = frame.clipped(step[0], step[1]) else {
+        let Some((from, to)) = clip(frame.sides(), step[0], step[1]) else {
             continue;
         };
         if pen != Some(from) {
@@ -217,25 +257,45 @@ fn append_run(run: &[(f64, f64)], frame: &Frame, steps: &mut Vec<Step>) {
 }
 
 fn bands(intervals: &[(f64, f64)], colour: Colour, frame: &Frame, ink: &mut Vec<Ink>) {
+    let inside = |value: f64, beyond: f64| {
+        let pixel = frame.x.pixel(value).unwrap_or(beyond);
+        pixel.clamp(frame.left, frame.right)
+    };
     for &(start, end) in intervals {
-        let left = frame
-            .x
-            .pixel(start)
-            .unwrap_or(frame.left)
-            .clamp(frame.left, frame.right);
-        let right = frame
-            .x
-            .pixel(end)
-            .unwrap_or(frame.right)
-            .clamp(frame.left, frame.right);
+        let (left, right) = (inside(start, frame.left), inside(end, frame.right));
         if right > left {
             let size = (right - left, frame.bottom - frame.top);
-            ink.push(Ink::Shade {
-                corner: (left, frame.top),
-                size,
-                colour,
-            });
+            ink.push(rectangle((left, frame.top), size, colour, SHADE));
         }
+    }
+}
+
+/// Bars from `low` to `high` with caps at the ends that show.
+fn bars(x: &[f64], low: &[f64], high: &[f64], frame: &Frame) -> Vec<Step> {
+    const CAP: f64 = 3.0;
+    let ends = |((&x, &low), &high): ((&f64, &f64), &f64)| {
+        let (from, to) = (frame.point(x, low)?, frame.point(x, high)?);
+        Some((from, to, clip(frame.sides(), from, to)?))
+    };
+    let mut steps = Vec::new();
+    for (from, to, shown) in x.iter().zip(low).zip(high).filter_map(ends) {
+        let (x, y) = shown.0;
+        steps.extend([Step::Move(x, y), Step::Line(shown.1.0, shown.1.1)]);
+        for (x, y) in [from, to].into_iter().filter(|&end| frame.holds(end)) {
+            let (left, right) = ((x - CAP).max(frame.left), (x + CAP).min(frame.right));
+            steps.extend([Step::Move(left, y), Step::Line(right, y)]);
+        }
+    }
+    steps
+}
+
+/// A filled rectangle.
+pub(crate) fn rectangle((x, y): (f64, f64), size: (f64, f64), colour: Colour, opacity: f64) -> Ink {
+    let (right, below) = (x + size.0, y + size.1);
+    Ink::Area {
+        corners: vec![(x, y), (x, below), (right, below), (right, y)],
+        colour,
+        opacity,
     }
 }
 
@@ -277,27 +337,13 @@ pub(crate) fn outline((x, y): (f64, f64), size: (f64, f64), width: f64) -> Ink {
     }
 }
 
-/// A dashed straight line. The dashes are drawn one by one, so that both backends agree on them.
-pub(crate) fn dashes(from: (f64, f64), to: (f64, f64)) -> Ink {
-    const DASH: f64 = 7.0;
-    const GAP: f64 = 4.0;
-    let length = (to.0 - from.0).hypot(to.1 - from.1).max(1e-9);
-    let at = |s: f64| {
-        (
-            from.0 + (to.0 - from.0) * s / length,
-            from.1 + (to.1 - from.1) * s / length,
-        )
-    };
-    let mut steps = Vec::new();
-    let mut s = 0.0;
-    while s < length {
-        let (a, b) = (at(s), at((s + DASH).min(length)));
-        steps.extend([Step::Move(a.0, a.1), Step::Line(b.0, b.1)]);
-        s += DASH + GAP;
-    }
+/// A dashed straight line for reference.
+fn dashes(from: (f64, f64), to: (f64, f64)) -> Ink {
+    let (width, colour) = REFERENCE;
+    let steps = dashed(&[Step::Move(from.0, from.1), Step::Line(to.0, to.1)]);
     Ink::Trail {
         steps,
-        width: 1.2,
-        colour: Colour::DARK,
+        width,
+        colour,
     }
 }

@@ -3,8 +3,8 @@
 //! kuva draws the axes, ticks and all type; the marks between the axes are ours, because a cloud of
 //! 200 000 points needs thinning and one path instead of one element per point.
 //!
-//! Build one of [`Cloud`], [`Portrait`], [`History`], [`Curves`], [`ClassMap`] or [`ValueMap`], hand it to
-//! [`Figure::new`], or several as panels to [`Figure::grid`]. Points that are not finite are skipped, empty series are
+//! Build one of [`Cloud`], [`Branches`], [`BifurcationSet`], [`Shares`], [`Portrait`], [`History`], [`Curves`],
+//! [`ClassMap`] or [`ValueMap`], hand it to [`Figure::new`], or several as panels to [`Figure::grid`]. Points that are not finite are skipped, empty series are
 //! fine, and constant data get a sensible range: a figure cannot fail, only a PNG's size can.
 //!
 //! ```
@@ -16,26 +16,38 @@
 //! assert!(figure.svg().starts_with("<svg"));
 //! ```
 
+mod area;
 mod axis;
 mod bar;
+mod bifurcation;
+mod bifurcation_set;
+mod branches;
 mod cloud;
 mod colour;
 mod compose;
 mod curves;
+mod dash;
 mod history;
 mod legend;
+mod lettering;
 mod map;
 mod marks;
 mod mosaic;
+mod notes;
 mod panel;
+mod parts;
 mod portrait;
 mod raster;
 mod scale;
+mod shares;
 mod text;
 mod thin;
 mod vector;
 
 pub use axis::Axis;
+pub use bifurcation::Bifurcation;
+pub use bifurcation_set::BifurcationSet;
+pub use branches::Branches;
 pub use cloud::Cloud;
 pub use colour::Colour;
 pub use curves::Curves;
@@ -44,6 +56,7 @@ pub use map::{Class, ClassMap, Grid, ValueMap};
 pub use panel::Panel;
 pub use portrait::Portrait;
 pub use scale::ColourScale;
+pub use shares::Shares;
 
 use crate::ResultsError;
 

@@ -2,18 +2,18 @@
 //!
 //! kuva 0.6 frays slanted lines (no coverage in the vertical direction) and darkens rotated type (it
 //! blends onto a transparent ground as if it were opaque). So the marks are drawn by tiny-skia, and
-//! the labels of the vertical axes are drawn upright and turned by exact quarter turns.
+//! the labels of the vertical axes are drawn upright and turned by exact quarter turns (`lettering.rs`).
 
 use super::colour::Colour;
-use super::compose::Drawing;
-use super::marks::{Ink, RIM, SHADE, Step};
+use super::compose::{Drawing, TICK};
+use super::lettering::{self, take_turned};
+use super::marks::{HALO, Ink, RIM, Step};
 use super::mosaic::{Mosaic, Raster};
-use super::text;
 use crate::ResultsError;
 use kuva::RasterBackend;
-use kuva::render::render::{Primitive, Scene, TextAnchor};
+use kuva::render::render::Scene;
 use tiny_skia::{
-    FillRule, IntSize, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Rect, Stroke, Transform,
+    FillRule, IntSize, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, Transform,
 };
 
 /// The drawing as PNG bytes with `scale` pixels per unit.
@@ -34,7 +34,7 @@ pub(crate) fn png(drawing: Drawing, scale: f32) -> Result<Vec<u8>, ResultsError>
         label.blit(&mut image, scale)?;
     }
     for mark in &ink {
-        draw(mark, &mut image, Transform::from_scale(scale, scale));
+        draw(mark, &mut image, Transform::from_scale(scale, scale))?;
     }
     encode(&image)
 }
@@ -46,7 +46,7 @@ fn refused(reason: &impl ToString) -> ResultsError {
 }
 
 /// What kuva can draw well, as pixels.
-fn pixmap(scene: &Scene, scale: f32) -> Result<Pixmap, ResultsError> {
+pub(crate) fn pixmap(scene: &Scene, scale: f32) -> Result<Pixmap, ResultsError> {
     let bytes = RasterBackend::new()
         .with_scale(scale)
         .render_scene(scene)
@@ -67,104 +67,7 @@ fn pixmap(scene: &Scene, scale: f32) -> Result<Pixmap, ResultsError> {
     Pixmap::from_vec(pixels, size).ok_or_else(|| refused(&"the image is not of four channels"))
 }
 
-/// A label to be read from below to above, by its anchor on the sheet.
-struct Turned {
-    x: f64,
-    y: f64,
-    content: String,
-    size: u32,
-}
-
-/// Takes the rotated labels out of the scene, following the groups that move them.
-fn take_turned(scene: &mut Scene) -> Vec<Turned> {
-    let mut turned = Vec::new();
-    let mut shift = (0.0, 0.0);
-    scene.elements.retain(|element| match element {
-        // Panels are one group deep.
-        Primitive::GroupStart { transform, .. } => {
-            shift = transform
-                .as_deref()
-                .and_then(translation)
-                .unwrap_or((0.0, 0.0));
-            true
-        }
-        Primitive::GroupEnd => {
-            shift = (0.0, 0.0);
-            true
-        }
-        Primitive::Text {
-            x,
-            y,
-            content,
-            size,
-            rotate: Some(_),
-            ..
-        } => {
-            turned.push(Turned {
-                x: x + shift.0,
-                y: y + shift.1,
-                content: content.clone(),
-                size: *size,
-            });
-            false
-        }
-        _ => true,
-    });
-    turned
-}
-
-fn translation(transform: &str) -> Option<(f64, f64)> {
-    let (x, y) = transform
-        .strip_prefix("translate(")?
-        .strip_suffix(')')?
-        .split_once(',')?;
-    Some((x.parse().ok()?, y.parse().ok()?))
-}
-
-impl Turned {
-    /// Draws the label upright on a slip of its own and copies that a quarter turn to the left.
-    fn blit(&self, image: &mut Pixmap, scale: f32) -> Result<(), ResultsError> {
-        let height = f64::from(self.size) * 2.0;
-        let mut slip = Scene::new(text::width(&self.content, self.size) + 10.0, height);
-        slip.add(Primitive::Text {
-            x: slip.width / 2.0,
-            y: height / 2.0,
-            content: self.content.clone(),
-            size: self.size,
-            anchor: TextAnchor::Middle,
-            rotate: None,
-            bold: false,
-            color: Some(Colour::BLACK.into()),
-        });
-        let slip = pixmap(&slip, scale)?;
-        let anchor = |v: f64| (v * f64::from(scale)).round() as i64;
-        let (middle, baseline) = (i64::from(slip.width()) / 2, i64::from(slip.height()) / 2);
-        for row in 0..slip.height() {
-            for column in 0..slip.width() {
-                let x = anchor(self.x) + i64::from(row) - baseline;
-                let y = anchor(self.y) - (i64::from(column) - middle);
-                copy_darker(&slip, (column, row), image, (x, y));
-            }
-        }
-        Ok(())
-    }
-}
-
-/// Copies a pixel where it is darker than what is there, so that white slips cover nothing.
-fn copy_darker(from: &Pixmap, (column, row): (u32, u32), to: &mut Pixmap, (x, y): (i64, i64)) {
-    if x < 0 || y < 0 || x >= i64::from(to.width()) || y >= i64::from(to.height()) {
-        return;
-    }
-    let source = 4 * (row as usize * from.width() as usize + column as usize);
-    let target = 4 * (y as usize * to.width() as usize + x as usize);
-    for channel in 0..3 {
-        let value = from.data()[source + channel];
-        let there = &mut to.data_mut()[target + channel];
-        *there = value.min(*there);
-    }
-}
-
-fn draw(mark: &Ink, image: &mut Pixmap, transform: Transform) {
+fn draw(mark: &Ink, image: &mut Pixmap, transform: Transform) -> Result<(), ResultsError> {
     match mark {
         Ink::Trail {
             steps,
@@ -188,7 +91,7 @@ fn draw(mark: &Ink, image: &mut Pixmap, transform: Transform) {
             colour,
         } => {
             let circle = PathBuilder::from_circle(centre.0 as f32, centre.1 as f32, *radius as f32);
-            let Some(circle) = circle else { return };
+            let Some(circle) = circle else { return Ok(()) };
             image.fill_path(
                 &circle,
                 &paint(*colour, 1.0),
@@ -205,39 +108,31 @@ fn draw(mark: &Ink, image: &mut Pixmap, transform: Transform) {
             );
         }
         Ink::Mosaic(mosaic) => tile(mosaic, image, f64::from(transform.sx)),
-        Ink::Wedge { corners, colour } => {
-            let [a, b, c] = corners.map(|(x, y)| (x as f32, y as f32));
-            let mut builder = PathBuilder::new();
-            builder.move_to(a.0, a.1);
-            builder.line_to(b.0, b.1);
-            builder.line_to(c.0, c.1);
-            builder.close();
-            let Some(path) = builder.finish() else { return };
-            let paint = paint(*colour, 1.0);
-            image.fill_path(&path, &paint, FillRule::Winding, transform, None);
-        }
-        Ink::Block {
-            corner,
-            size,
+        Ink::Area {
+            corners,
             colour,
-        }
-        | Ink::Shade {
-            corner,
-            size,
-            colour,
+            opacity,
         } => {
-            let solid = matches!(mark, Ink::Block { .. });
-            let rect = Rect::from_xywh(
-                corner.0 as f32,
-                corner.1 as f32,
-                size.0 as f32,
-                size.1 as f32,
-            );
-            let Some(rect) = rect else { return };
-            let opacity = if solid { 1.0 } else { SHADE };
-            image.fill_rect(rect, &paint(*colour, opacity), transform, None);
+            let mut builder = PathBuilder::new();
+            for (number, &(x, y)) in corners.iter().enumerate() {
+                match number {
+                    0 => builder.move_to(x as f32, y as f32),
+                    _ => builder.line_to(x as f32, y as f32),
+                }
+            }
+            builder.close();
+            if let Some(path) = builder.finish() {
+                let paint = paint(*colour, *opacity);
+                image.fill_path(&path, &paint, FillRule::Winding, transform, None);
+            }
         }
+        Ink::Word {
+            left,
+            baseline,
+            content,
+        } => lettering::word(content, TICK, (*left, *baseline), HALO, image, transform.sx)?,
     }
+    Ok(())
 }
 
 /// Gives each pixel of the image that a cell covers the colour of the cell.

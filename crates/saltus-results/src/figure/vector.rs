@@ -1,14 +1,14 @@
 //! The SVG backend: kuva's for axes and type, with our marks as few and short paths.
 
 use super::colour::Colour;
-use super::compose::Drawing;
-use super::marks::{Ink, RIM, SHADE, Step};
+use super::compose::{Drawing, TICK};
+use super::marks::{HALO, Ink, RIM, Step};
 use super::mosaic::Mosaic;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use kuva::backend::svg::SvgBackend;
 use kuva::render::color::Color;
-use kuva::render::render::{PathData, Primitive};
+use kuva::render::render::{PathData, Primitive, TextAnchor};
 use std::fmt::Write;
 
 /// The drawing as SVG text.
@@ -27,6 +27,11 @@ pub(crate) fn svg(drawing: Drawing) -> String {
                 scene.elements.extend(place_of_image(images.len()));
                 images.push(image(mosaic));
             }
+            Ink::Word {
+                left,
+                baseline,
+                content,
+            } => scene.elements.extend(word(*left, *baseline, content)),
             _ => scene.elements.extend(primitive(mark)),
         }
     }
@@ -78,6 +83,27 @@ fn image(mosaic: &Mosaic) -> String {
     )
 }
 
+/// Type with a white rim, which parts it from what lies below.
+fn word(x: f64, y: f64, content: &str) -> [Primitive; 3] {
+    let rim = format!("stroke=\"#ffffff\" stroke-width=\"{HALO}\" paint-order=\"stroke\"");
+    let start = Primitive::GroupStart {
+        transform: None,
+        title: None,
+        extra_attrs: Some(rim),
+    };
+    let text = Primitive::Text {
+        x,
+        y,
+        content: content.to_owned(),
+        size: TICK,
+        anchor: TextAnchor::Start,
+        rotate: None,
+        bold: false,
+        color: Some(Colour::BLACK.into()),
+    };
+    [start, text, Primitive::GroupEnd]
+}
+
 /// A PNG of one byte for each pixel, the index of its colour.
 fn indexed(
     size: (usize, usize),
@@ -98,39 +124,26 @@ fn indexed(
 
 fn primitive(ink: &Ink) -> Option<Primitive> {
     Some(match ink {
-        Ink::Mosaic(_) => return None,
-        Ink::Wedge {
-            corners: [a, b, c],
+        Ink::Mosaic(_) | Ink::Word { .. } => return None,
+        Ink::Area {
+            corners,
             colour,
+            opacity,
         } => {
-            let steps = [
-                Step::Move(a.0, a.1),
-                Step::Line(b.0, b.1),
-                Step::Line(c.0, c.1),
-            ];
+            let step = |(number, &(x, y)): (usize, &(f64, f64))| match number {
+                0 => Step::Move(x, y),
+                _ => Step::Line(x, y),
+            };
+            let steps: Vec<Step> = corners.iter().enumerate().map(step).collect();
             Primitive::Path(Box::new(PathData {
-                d: path(&steps) + "Z",
+                d: path(&steps),
                 fill: Some((*colour).into()),
                 stroke: (*colour).into(),
                 stroke_width: 0.0,
-                opacity: None,
+                opacity: (*opacity < 1.0).then_some(*opacity),
                 stroke_dasharray: None,
             }))
         }
-        Ink::Block {
-            corner,
-            size,
-            colour,
-        } => Primitive::Rect {
-            x: corner.0,
-            y: corner.1,
-            width: size.0,
-            height: size.1,
-            fill: (*colour).into(),
-            stroke: None,
-            stroke_width: None,
-            opacity: None,
-        },
         Ink::Trail {
             steps,
             width,
@@ -155,20 +168,6 @@ fn primitive(ink: &Ink) -> Option<Primitive> {
             fill_opacity: None,
             stroke: Some(Color::Rgb(255, 255, 255)),
             stroke_width: Some(RIM),
-        },
-        Ink::Shade {
-            corner,
-            size,
-            colour,
-        } => Primitive::Rect {
-            x: corner.0,
-            y: corner.1,
-            width: size.0,
-            height: size.1,
-            fill: (*colour).into(),
-            stroke: None,
-            stroke_width: None,
-            opacity: Some(SHADE),
         },
     })
 }

@@ -2,6 +2,8 @@
 //! command line. `cargo run --release --example gallery -p saltus-results -- FOLDER`
 #![allow(clippy::print_stdout)]
 
+mod dynamics;
+
 use saltus_results::{
     Axis, Class, ClassMap, Cloud, Colour, ColourScale, CsvTable, Curves, Dataset, Fact, Figure,
     FigureBlock, Grid, History, Image, MarkdownTable, Page, Panel, Portrait, ResultFolder,
@@ -16,7 +18,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut page = Page::new("Gallery of figures")
         .section("Figures")
         .paragraph("Synthetic data, drawn to check that nothing overlaps, nothing is cut & everything can be read.");
-    for (name, figure) in figures() {
+    for (name, figure) in figures().into_iter().chain(dynamics::figures()) {
         let start = Instant::now();
         let svg = figure.svg();
         let middle = Instant::now();
