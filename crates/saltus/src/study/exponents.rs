@@ -96,10 +96,12 @@ impl Task for Climb<'_> {
 
     fn sample(&mut self, sample: &Sample<'_>) -> bool {
         self.control.count_period();
+        // The columns of this period come after this call.
+        if sample.period <= ALIGNMENT + 1 {
+            self.out.spectrum.forget();
+        }
         if sample.period > ALIGNMENT {
             self.out.divergence += self.model.divergence(sample.dwell);
-        } else {
-            self.out.spectrum.forget();
         }
         !self.failed
     }
