@@ -13,9 +13,11 @@ impl Model {
     ///
     /// Each plate amplitude contributes -c/Omega, each leg on the floor -(c_h/Omega) (1/m_h + sum psi_j^2/M), a
     /// relaxing leg in the air -k_h/(c_h Omega). By Liouville's formula the sum of all Lyapunov exponents is
-    /// the mean of this, plus what resets and jumps of the force do at switches: nothing under
-    /// [`ContactLaw::ReactionForce`]. What in-plane terms do under [`super::Inertia::SlowManifold`] beyond
-    /// their static response is left out.
+    /// the mean of this: switches change no volume under [`ContactLaw::ReactionForce`], where nothing jumps, and
+    /// under [`ContactLaw::Gap`], where accelerations jump at a gap that depends on positions only
+    /// (det S = 1 + grad g . (f+ - f-)/g' = 1). A relaxing leg forgets its length at touch-down, and all
+    /// volume with it. What in-plane terms do under [`super::Inertia::SlowManifold`] beyond their static
+    /// response is left out.
     pub fn divergence(&self, dwell: &[Vec<f64>]) -> f64 {
         let amplitudes = (self.layout.transverse + self.layout.in_plane) as f64;
         let plate = amplitudes * self.plate.elasticity.damping / self.scales.omega;

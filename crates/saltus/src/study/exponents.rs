@@ -228,8 +228,12 @@ mod tests {
     #[test]
     fn the_sum_of_all_exponents_is_the_mean_divergence() {
         // By Liouville's formula, period by period: no statistics are involved.
-        for (zeta, ratio) in [(0.12, 1.0), (0.32, 1.1)] {
-            let all = measured(&Setup::dias_del_prado(zeta, ratio), 10, 60);
+        for contact in [ContactLaw::ReactionForce, ContactLaw::Gap] {
+            let setup = Setup {
+                contact,
+                ..Setup::dias_del_prado(0.12, 1.0)
+            };
+            let all = measured(&setup, 10, 60);
             let sum = all.spectrum.sum().per_iterate;
             assert!(
                 (sum - all.divergence).abs() < 1e-7,
@@ -237,12 +241,5 @@ mod tests {
                 all.divergence
             );
         }
-        // Where the force jumps at touch-down, areas change there too.
-        let gap = Setup {
-            contact: ContactLaw::Gap,
-            ..Setup::dias_del_prado(0.12, 1.0)
-        };
-        let all = measured(&gap, 10, 60);
-        assert!((all.spectrum.sum().per_iterate - all.divergence).abs() > 1e-3);
     }
 }
