@@ -4,6 +4,19 @@
 //! Everything here asks a [`Family`] of maps; nothing knows whether that is a forced flow seen once per
 //! period, which may switch on the way, or two lines of algebra.
 
+mod beyond;
+mod continuation;
+mod events;
+mod follow;
+mod linear;
+mod locate;
 mod map;
+mod orbit;
+mod shooting;
+mod special;
 
+pub use continuation::{Along, Branch, ContinuationError, ContinuationOptions, End, Point};
+pub use follow::{follow, follow_both};
 pub use map::{Crossing, Family, Image, Lost, Matrix, Place, Shot, Touch};
+pub use orbit::{Multiplier, NewtonOptions, NotFound, Orbit, find_orbit};
+pub use special::{Special, SpecialKind};

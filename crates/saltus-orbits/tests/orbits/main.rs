@@ -1,0 +1,7 @@
+//! Orbits, branches and curves of maps whose answers are known by formula.
+#![allow(clippy::unwrap_used)]
+
+mod branches;
+mod find;
+mod grazing;
+mod maps;
