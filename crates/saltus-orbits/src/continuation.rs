@@ -4,7 +4,7 @@
 //! tangent t the corrector solves the equations of the orbit with t (u - u_predicted) = 0, so it passes
 //! folds. The parameter counts in units of its range, divided by [`ContinuationOptions::weight`].
 
-use crate::linear::{self, dot, minus, norm, unit};
+use crate::linear::{self, minus, norm, unit};
 use crate::shooting::{Change, Free, Guess, Pass, Shooting};
 use crate::{Family, Lost, Matrix, NewtonOptions, NotFound, Orbit, Special};
 
@@ -72,7 +72,7 @@ pub struct Point {
     pub tangent: Vec<f64>,
     /// The tangent at all places.
     pub(crate) spread: Change,
-    /// Sign of the determinant of the equations with the tangent below them: it changes at branch points.
+    /// Determinant of the equations with the tangent below them: it changes its sign at branch points.
     pub(crate) side: f64,
 }
 
@@ -295,7 +295,7 @@ impl<'a, F: Family + ?Sized> Path<'a, F> {
             stable: orbit.stable(),
             outside: orbit.outside(),
             spread: pass.spread(&tangent).ok_or_else(singular)?,
-            side: linear::determinant(&bordered).signum(),
+            side: linear::determinant(&bordered),
             tangent,
             orbit,
         })

@@ -5,7 +5,7 @@ use crate::continuation::{
 };
 use crate::linear::{dot, minus, norm, unit};
 use crate::special::{Special, SpecialKind};
-use crate::{Family, Lost, NotFound, Orbit, events};
+use crate::{Family, Lost, Multiplier, NotFound, Orbit, events};
 
 /// The corrector stays within so many steps of the prediction, or it may have found another branch.
 const NEAR: f64 = 2.0;
@@ -22,6 +22,9 @@ const AT_TOUCH: f64 = 1e-9;
 
 /// The part of the way to a touch that one step covers.
 const APPROACH: f64 = 0.95;
+
+/// On the first step of a branch from its birth the critical multiplier moves by less than this.
+const BORN: f64 = 0.3;
 
 /// Points before a branch may close.
 const ROUND: usize = 5;
@@ -46,7 +49,7 @@ pub fn follow<F: Family + ?Sized>(
 ) -> Result<Branch, ContinuationError> {
     let path = Path::new(family, start, along, options)?;
     let mut branch = path.walk(path.seed(start, growing)?, false, keep_going);
-    number(&mut branch);
+    Labels::default().name(&mut branch);
     Ok(branch)
 }
 
@@ -64,36 +67,23 @@ pub fn follow_both<F: Family + ?Sized>(
 ) -> Result<Branch, ContinuationError> {
     let path = Path::new(family, start, along, options)?;
     let mut branch = path.walk_both(path.seed(start, true)?, false, keep_going);
-    number(&mut branch);
+    Labels::default().name(&mut branch);
     Ok(branch)
-}
-
-/// Labels in the order of the branch.
-fn number(branch: &mut Branch) {
-    let mut labels = Labels::default();
-    for special in &mut branch.specials {
-        labels.name(special);
-    }
 }
 
 /// Numbers each kind of special point on its own.
 #[derive(Default)]
-pub(crate) struct Labels(Vec<(&'static str, usize)>);
+pub(crate) struct Labels(Vec<&'static str>);
 
 impl Labels {
-    pub(crate) fn name(&mut self, special: &mut Special) {
-        let short = special.kind.short();
-        let number = match self.0.iter_mut().find(|(known, _)| *known == short) {
-            Some((_, number)) => {
-                *number += 1;
-                *number
-            }
-            None => {
-                self.0.push((short, 1));
-                1
-            }
-        };
-        special.label = format!("{short}{number}");
+    /// Labels in the order of the branch.
+    pub(crate) fn name(&mut self, branch: &mut Branch) {
+        for special in &mut branch.specials {
+            let short = special.kind.short();
+            self.0.push(short);
+            let number = self.0.iter().filter(|known| **known == short).count();
+            special.label = format!("{short}{number}");
+        }
     }
 }
 
@@ -201,6 +191,9 @@ impl<F: Family + ?Sized> Path<'_, F> {
             }
             let next = self.next(last, step).and_then(|point| {
                 let unseen = born && branch.points.len() == 1;
+                if unseen && !critical(&point) {
+                    return Err(Obstacle::Bend);
+                }
                 let after = branch.points.len() - 1;
                 let specials = if unseen {
                     Vec::new()
@@ -211,12 +204,17 @@ impl<F: Family + ?Sized> Path<'_, F> {
             });
             match next {
                 Ok((point, specials)) => {
+                    let known = branch.specials.len();
                     step = self.next_step(last, &point, step);
                     let closed = self.closed(&branch.points, &point);
-                    let halved = halved(last, &point)
-                        && specials.iter().any(|s| s.kind == SpecialKind::BranchPoint);
+                    let met = specials
+                        .iter()
+                        .position(|s| s.kind == SpecialKind::BranchPoint);
+                    let met = met.filter(|_| halved(last, &point));
                     branch.specials.extend(specials);
-                    if halved {
+                    if let Some(met) = met {
+                        branch.specials.truncate(known + met + 1);
+                        branch.specials[known + met].kind = SpecialKind::Halving;
                         branch.ends[1] = End::Halved;
                         break;
                     }
@@ -402,6 +400,13 @@ enum Shorter {
 fn angle(a: &[f64], b: &[f64]) -> f64 {
     // From the chord: the cosine says nothing about small angles.
     2.0 * (norm(&minus(a, b)) / 2.0).min(1.0).asin()
+}
+
+/// Whether a multiplier is near +1, as it is where a branch is born. What happens on the first step cannot be
+/// seen, so it must be short.
+fn critical(point: &Point) -> bool {
+    let off = |mu: &Multiplier| (mu.re - 1.0).hypot(mu.im);
+    point.orbit.multipliers.iter().any(|mu| off(mu) < BORN)
 }
 
 /// Whether the two halves of an orbit change sides from `a` to `b`: in between they are one.

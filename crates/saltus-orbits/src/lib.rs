@@ -5,6 +5,7 @@
 //! period, which may switch on the way, or two lines of algebra.
 
 mod beyond;
+mod branches;
 mod continuation;
 mod events;
 mod follow;
@@ -14,7 +15,9 @@ mod map;
 mod orbit;
 mod shooting;
 mod special;
+mod switching;
 
+pub use branches::{BranchesOptions, Limb, branches};
 pub use continuation::{Along, Branch, ContinuationError, ContinuationOptions, End, Point};
 pub use follow::{follow, follow_both};
 pub use map::{Crossing, Family, Image, Lost, Matrix, Place, Shot, Touch};

@@ -1,14 +1,20 @@
 //! Where between two points of a branch something happens.
 
 use crate::continuation::{Path, Point};
-use crate::special::{Special, Test, changes};
-use crate::{Family, Lost, NotFound, events};
+use crate::shooting::Guess;
+use crate::special::{Special, SpecialKind, Test, changes};
+use crate::{Family, Lost, NotFound, Orbit, events, linear};
 
 /// Brackets are narrowed to this length, relative to the largest coordinate or 1: what rounding allows.
 const NARROW: f64 = 1e-10;
 
 /// A test function this small is zero: it is not known better from an orbit with the default tolerance.
 const ZERO: f64 = 1e-11;
+
+/// A branch point is interpolated from points at this distance and twice that on both sides, relative to the
+/// largest coordinate or 1. Nearer to it orbits cannot be trusted: a residual of 1e-11 is the product of the
+/// distances to both branches. Farther, interpolation by cubics is off by more than 1e-10.
+const ASIDE: f64 = 1e-3;
 
 /// Special points between two points at most, so that noise cannot keep the search busy.
 const MOST: usize = 16;
@@ -48,12 +54,23 @@ impl<F: Family + ?Sized> Path<'_, F> {
                 [test] => values(test).is_some_and(|v| v[0].abs().min(v[1].abs()) <= ZERO),
                 _ => false,
             };
-            let size = crate::linear::size(&self.coordinates(&a.orbit)).max(1.0);
-            if zero || self.distance(&a, &b) <= NARROW * size {
+            let size = linear::size(&self.coordinates(&a.orbit)).max(1.0);
+            let length = self.distance(&a, &b);
+            let crossing = matches!(
+                tests[..],
+                [Test::BranchPoint] | [Test::BranchPoint, Test::Fold]
+            );
+            if crossing && length <= 4.0 * ASIDE * size {
+                let special = self.crossing(&a, &b, ASIDE * size, after);
+                return Ok((special.or_else(|| self.special(&a, &b, after)), b));
+            }
+            if zero || length <= NARROW * size {
                 break;
             }
             let part = match tests[..] {
                 [Test::Events] => self.touching(&a, &b, &mut aim, round),
+                // The end of this search lies aside of the point, so the bracket need only be short.
+                [Test::BranchPoint] => None,
                 [test] => values(test).and_then(|values| aim.part(values)),
                 _ => None,
             };
@@ -68,7 +85,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
                 Err(_) => match self.between(&a, &b, 0.5) {
                     Ok(point) => point,
                     Err(_) => {
-                        if tests == [Test::Events] {
+                        if tests.contains(&Test::Events) {
                             self.approach(&mut a, &mut b);
                         }
                         break;
@@ -108,6 +125,56 @@ impl<F: Family + ?Sized> Path<'_, F> {
                 "stability changes here without a multiplier on the unit circle".to_owned()
             }),
             tangent: best.tangent.clone(),
+        })
+    }
+
+    /// The branch point between two points: where the cubic through four determinants is zero, on the cubics
+    /// through the four orbits.
+    fn crossing(&self, a: &Point, b: &Point, aside: f64, after: usize) -> Option<Special> {
+        let length = self.distance(a, b);
+        let middle = length * a.side / (a.side - b.side);
+        let at = [-2.0, -1.0, 1.0, 2.0].map(|times| middle + times * aside);
+        let mut points = Vec::new();
+        for at in at {
+            points.push(self.between(a, b, at / length).ok()?);
+        }
+        let cubic = |value: &dyn Fn(&Point) -> f64, s: f64| -> f64 {
+            let weight = |i: usize| {
+                let others = (0..4).filter(|&j| j != i);
+                others
+                    .map(|j| (s - at[j]) / (at[i] - at[j]))
+                    .product::<f64>()
+            };
+            (0..4).map(|i| weight(i) * value(&points[i])).sum()
+        };
+        let (mut low, mut high) = (at[0], at[3]);
+        let falling = points[0].side > 0.0;
+        for _ in 0..ROUNDS {
+            let s = f64::midpoint(low, high);
+            if (cubic(&|point| point.side, s) > 0.0) == falling {
+                low = s;
+            } else {
+                high = s;
+            }
+        }
+        let mut guess: Guess = points[0].orbit.guess();
+        for (i, place) in guess.places.iter_mut().enumerate() {
+            for (j, x) in place.x.iter_mut().enumerate() {
+                *x = cubic(&|point| point.orbit.places[i].x[j], low);
+            }
+        }
+        let parameter = cubic(&|point| point.parameter, low);
+        guess.parameters[self.free[0].index] = parameter;
+        let orbit = Orbit::of(&self.shooting().pass(&guess).ok()?).ok()?;
+        Some(Special {
+            label: String::new(),
+            kind: SpecialKind::BranchPoint,
+            parameter,
+            orbit,
+            after,
+            outside: [a.outside, b.outside],
+            remark: None,
+            tangent: linear::unit(&self.apart(&points[1], &points[2])),
         })
     }
 

@@ -11,6 +11,8 @@ pub enum SpecialKind {
     Fold,
     /// Another branch of the same period crosses: a multiplier is +1.
     BranchPoint,
+    /// The branch meets that of half its period, at a period doubling of the latter, and ends there.
+    Halving,
     /// A branch of twice the period begins: a multiplier is -1.
     PeriodDoubling,
     /// A pair of complex multipliers passes the unit circle, and an invariant curve begins.
@@ -33,6 +35,7 @@ impl SpecialKind {
         match self {
             Self::Fold => "LP",
             Self::BranchPoint => "BP",
+            Self::Halving => "HP",
             Self::PeriodDoubling => "PD",
             Self::NeimarkSacker { .. } => "NS",
             Self::Grazing { .. } => "GR",
@@ -84,9 +87,9 @@ pub(crate) fn changes(a: &Point, b: &Point) -> Vec<Test> {
         }
     };
     put(Test::Events, events);
-    put(Test::BranchPoint, a.side * b.side < 0.0);
+    put(Test::BranchPoint, (a.side < 0.0) != (b.side < 0.0));
     put(Test::PeriodDoubling, flips(a) % 2 != flips(b) % 2);
-    put(Test::Fold, a.pace() * b.pace() < 0.0);
+    put(Test::Fold, (a.pace() < 0.0) != (b.pace() < 0.0));
     // The others take one multiplier each through the circle.
     let pairs = a.outside.abs_diff(b.outside) >= 2 + all.len();
     if pairs {
@@ -98,15 +101,13 @@ pub(crate) fn changes(a: &Point, b: &Point) -> Vec<Test> {
 impl Test {
     /// A number that passes zero, smoothly, where this happens.
     pub(crate) fn value(self, point: &Point) -> Option<f64> {
-        let nearest = |to: f64| {
-            real(&point.orbit)
-                .map(|mu| mu - to)
-                .min_by(|a, b| a.abs().total_cmp(&b.abs()))
-        };
         match self {
             Self::Events => None,
-            Self::BranchPoint => nearest(1.0),
-            Self::PeriodDoubling => nearest(-1.0),
+            Self::BranchPoint => Some(point.side),
+            Self::PeriodDoubling => {
+                let above = real(&point.orbit).map(|mu| mu + 1.0);
+                above.min_by(|a, b| a.abs().total_cmp(&b.abs()))
+            }
             Self::Fold => Some(point.pace()),
             Self::NeimarkSacker => Some(critical_pair(&point.orbit)?.modulus() - 1.0),
         }

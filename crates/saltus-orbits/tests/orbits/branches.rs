@@ -4,8 +4,8 @@ use crate::maps::{
     Smooth, at, bouncing_ball, circle, delayed_logistic, henon, logistic, pitchfork,
 };
 use saltus_orbits::{
-    Along, Branch, ContinuationError, ContinuationOptions, End, Family, NewtonOptions, Orbit,
-    Place, Special, SpecialKind, find_orbit, follow, follow_both,
+    Along, Branch, BranchesOptions, ContinuationError, ContinuationOptions, End, Family,
+    NewtonOptions, Orbit, Place, Special, SpecialKind, branches, find_orbit, follow, follow_both,
 };
 use std::f64::consts::{FRAC_PI_3, PI, TAU};
 
@@ -224,4 +224,60 @@ fn questions_without_sense_are_errors() {
         ..options.clone()
     };
     assert_eq!(ask(along(0, 1.0, 4.0), &steps), ContinuationError::BadSteps);
+}
+
+#[test]
+fn a_cascade_is_followed_by_itself_and_its_ratios_approach_feigenbaums() {
+    let map = logistic();
+    let start = orbit(&map, &[2.5], &[&[0.6]]);
+    let mut options = BranchesOptions::default();
+    options.crossings = false;
+    let all = branches(&map, &start, &along(0, 2.0, 3.6), &options, &mut |_| true).unwrap();
+    let doublings: Vec<f64> = all
+        .iter()
+        .map(|limb| {
+            let mut all = limb.branch.specials.iter();
+            all.find(|s| s.kind == SpecialKind::PeriodDoubling)
+                .unwrap()
+                .parameter
+        })
+        .collect();
+    assert_eq!(all.len(), 7);
+    for (i, limb) in all.iter().enumerate() {
+        assert_eq!(limb.branch.points[0].orbit.period(), 1 << i);
+    }
+    assert!((doublings[1] - (1.0 + 6_f64.sqrt())).abs() < 1e-9);
+    let ratio =
+        |i: usize| (doublings[i - 1] - doublings[i - 2]) / (doublings[i] - doublings[i - 1]);
+    // 4.6692016 (Feigenbaum 1978); the error falls about fivefold from one to the next.
+    assert!((ratio(6) - 4.669_201_6).abs() < 2e-3, "{doublings:?}");
+    assert_eq!(all[1].origin.as_deref(), Some("PD1"));
+}
+
+#[test]
+fn the_other_branch_of_a_pitchfork_is_followed_both_ways_and_once() {
+    let map = pitchfork();
+    let start = orbit(&map, &[-0.5], &[&[0.0]]);
+    let options = BranchesOptions::default();
+    let all = branches(&map, &start, &along(0, -0.6, 0.6), &options, &mut |_| true).unwrap();
+    assert_eq!(all.len(), 2);
+    let points = &all[1].branch.points;
+    let ends = [0, points.len() - 1].map(|i| points[i].orbit.places[0].x[0]);
+    let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+    let root = 0.6_f64.sqrt();
+    assert!((low + root).abs() < 1e-10 && (high - root).abs() < 1e-10);
+}
+
+#[test]
+fn a_bubble_of_period_two_is_followed_once() {
+    let map = Smooth::new(|p, [x]| ([0.85 - p[0] * p[0] - x * x], [[-2.0 * x]]));
+    let start = orbit(&map, &[0.4], &[&[0.45]]);
+    let options = BranchesOptions::default();
+    let all = branches(&map, &start, &along(0, -0.5, 0.5), &options, &mut |_| true).unwrap();
+    // a - x^2 doubles at a = 3/4 and next at 5/4: 0.85 - p^2 passes 3/4 twice.
+    let root = 0.1_f64.sqrt();
+    assert_specials(&all[0].branch, &[("PD", -root), ("PD", root)]);
+    assert_eq!(all.len(), 2);
+    assert_eq!(all[1].branch.ends[1], End::Halved);
+    assert_specials(&all[1].branch, &[("HP", root)]);
 }

@@ -4,18 +4,18 @@ use saltus_orbits::{Crossing, Family, Image, Lost, Matrix, Place, Shot, Touch};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A map given by a formula for its image and the rows of its derivative.
-pub struct Smooth<const N: usize> {
-    pub map: fn(&[f64], [f64; N]) -> ([f64; N], [[f64; N]; N]),
+pub(crate) struct Smooth<const N: usize> {
+    pub(crate) map: fn(&[f64], [f64; N]) -> ([f64; N], [[f64; N]; N]),
     /// Parameter 0 ends here.
-    pub until: f64,
+    pub(crate) until: f64,
     /// Calls so far.
-    pub calls: AtomicUsize,
+    pub(crate) calls: AtomicUsize,
     /// Answers `Interrupted` after so many calls.
-    pub patience: usize,
+    pub(crate) patience: usize,
 }
 
 impl<const N: usize> Smooth<N> {
-    pub fn new(map: fn(&[f64], [f64; N]) -> ([f64; N], [[f64; N]; N])) -> Self {
+    pub(crate) fn new(map: fn(&[f64], [f64; N]) -> ([f64; N], [[f64; N]; N])) -> Self {
         Self {
             map,
             until: f64::INFINITY,
@@ -51,7 +51,7 @@ impl<const N: usize> Family for Smooth<N> {
     }
 }
 
-pub fn at(x: &[f64]) -> Place {
+pub(crate) fn at(x: &[f64]) -> Place {
     Place {
         modes: Vec::new(),
         x: x.to_vec(),
@@ -59,17 +59,17 @@ pub fn at(x: &[f64]) -> Place {
 }
 
 /// x -> r x (1 - x).
-pub fn logistic() -> Smooth<1> {
+pub(crate) fn logistic() -> Smooth<1> {
     Smooth::new(|p, [x]| ([p[0] * x * (1.0 - x)], [[p[0] * (1.0 - 2.0 * x)]]))
 }
 
 /// (x, y) -> (a - x^2 + b y, x), parameters a and b.
-pub fn henon() -> Smooth<2> {
+pub(crate) fn henon() -> Smooth<2> {
     Smooth::new(|p, [x, y]| ([p[0] - x * x + p[1] * y, x], [[-2.0 * x, p[1]], [1.0, 0.0]]))
 }
 
 /// (x, y) -> (r x (1 - y), x).
-pub fn delayed_logistic() -> Smooth<2> {
+pub(crate) fn delayed_logistic() -> Smooth<2> {
     Smooth::new(|p, [x, y]| {
         (
             [p[0] * x * (1.0 - y), x],
@@ -79,19 +79,19 @@ pub fn delayed_logistic() -> Smooth<2> {
 }
 
 /// x -> (1 + a) x - x^3: a pitchfork at a = 0, x^2 = a beyond.
-pub fn pitchfork() -> Smooth<1> {
+pub(crate) fn pitchfork() -> Smooth<1> {
     Smooth::new(|p, [x]| ([(1.0 + p[0]) * x - x * x * x], [[1.0 + p[0] - 3.0 * x * x]]))
 }
 
 /// x -> x + (p - x^2)(...) with the closed curve x^2 + p^2 = 1 of fixed points.
-pub fn circle() -> Smooth<1> {
+pub(crate) fn circle() -> Smooth<1> {
     Smooth::new(|p, [x]| ([x + 0.1 * (1.0 - x * x - p[0] * p[0])], [[1.0 - 0.2 * x]]))
 }
 
 /// The high-bounce map of a ball on a table that shakes: phase and speed, parameters gamma and e.
 /// phase' = phase + v, v' = e v + gamma (1 + e) cos(phase') (Holmes 1982). The phase is taken less 2 pi,
 /// so one bounce per period is a fixed point.
-pub fn bouncing_ball() -> Smooth<2> {
+pub(crate) fn bouncing_ball() -> Smooth<2> {
     Smooth::new(|p, [phase, v]| {
         let (gamma, e) = (p[0], p[1]);
         let next = phase + v - std::f64::consts::TAU;
@@ -106,11 +106,11 @@ pub fn bouncing_ball() -> Smooth<2> {
 
 /// x -> left x + mu for x < 0, right x + mu for x > 0, parameters mu, left, right. A visit to x > 0 is a
 /// switch there and back; from x < 0 the guard -x is touched.
-pub struct Border;
+pub(crate) struct Border;
 
 /// Nordmark's map: (x, y) -> (a x + y + rho, -g x) for x < 0, (-sqrt x + y + rho, -g t^2 x) for x > 0,
 /// parameters rho, a, g, t (Nordmark 1991). x > 0 is an impact.
-pub struct Nordmark;
+pub(crate) struct Nordmark;
 
 impl Family for Border {
     fn dimension(&self) -> usize {
