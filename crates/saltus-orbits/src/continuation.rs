@@ -115,6 +115,8 @@ pub enum End {
     Failed(NotFound),
     /// The branch bends too much for the smallest step.
     StepTooSmall,
+    /// The pair of multipliers that a curve follows became real: a resonance at the angle 0 or pi.
+    Resonance,
     /// Stopped from outside.
     Interrupted,
 }
@@ -131,6 +133,7 @@ impl std::fmt::Display for End {
             Self::NoMap(reason) => write!(f, "no map beyond: {reason}"),
             Self::Failed(reason) => write!(f, "lost: {reason}"),
             Self::StepTooSmall => write!(f, "bends too much for the smallest step"),
+            Self::Resonance => write!(f, "the pair of multipliers became real: a resonance"),
             Self::Interrupted => write!(f, "interrupted"),
         }
     }
@@ -178,6 +181,15 @@ pub enum ContinuationError {
         "steps must obey 0 < smallest <= initial <= largest, and weight and angle be positive; all finite"
     )]
     BadSteps,
+    /// No curve over two parameters.
+    #[error(
+        "no curve over two parameters can be followed from {short}: it takes two different parameters and \
+         LP, PD, NS or GR"
+    )]
+    NoCurve {
+        /// Kind of the special point.
+        short: &'static str,
+    },
     /// The start is no orbit.
     #[error("the start is no orbit: {0}")]
     Start(#[from] NotFound),

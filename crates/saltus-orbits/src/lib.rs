@@ -7,6 +7,7 @@
 mod beyond;
 mod branches;
 mod continuation;
+mod curve;
 mod events;
 mod follow;
 mod linear;
@@ -19,6 +20,7 @@ mod switching;
 
 pub use branches::{BranchesOptions, Limb, branches};
 pub use continuation::{Along, Branch, ContinuationError, ContinuationOptions, End, Point};
+pub use curve::{Curve, CurvePoint, follow_curve};
 pub use follow::{follow, follow_both};
 pub use map::{Crossing, Family, Image, Lost, Matrix, Place, Shot, Touch};
 pub use orbit::{Multiplier, NewtonOptions, NotFound, Orbit, find_orbit};

@@ -32,7 +32,7 @@ fn kinds(branch: &Branch) -> Vec<(&str, f64)> {
 #[test]
 fn an_orbit_that_persists_across_the_border_is_followed_across() {
     // Slopes 0.5 and -0.5: a fixed point on either side, mu/(1 - slope).
-    let start = orbit(&Border, &[-0.2, 0.5, -0.5], &[-0.4]);
+    let start = orbit(&Border, &[-0.2, 0.5, -0.5, 0.0], &[-0.4]);
     let branch = both(&Border, &start);
     let found = kinds(&branch);
     assert_eq!(found.len(), 1, "{found:?}");
@@ -44,7 +44,7 @@ fn an_orbit_that_persists_across_the_border_is_followed_across() {
 
 #[test]
 fn stability_lost_at_a_border_is_said_to_be_lost_there() {
-    let start = orbit(&Border, &[-0.2, 0.5, -1.5], &[-0.4]);
+    let start = orbit(&Border, &[-0.2, 0.5, -1.5, 0.0], &[-0.4]);
     let branch = both(&Border, &start);
     assert_eq!(kinds(&branch).len(), 1, "{:?}", kinds(&branch));
     assert_eq!(branch.specials[0].outside, [0, 1]);
@@ -54,7 +54,7 @@ fn stability_lost_at_a_border_is_said_to_be_lost_there() {
 #[test]
 fn a_fold_at_a_border_goes_back_the_way_it_came() {
     // Slopes 0.5 and 2: fixed points on both sides for mu < 0, none for mu > 0.
-    let start = orbit(&Border, &[-0.2, 0.5, 2.0], &[-0.4]);
+    let start = orbit(&Border, &[-0.2, 0.5, 2.0, 0.0], &[-0.4]);
     let branch = both(&Border, &start);
     let found = kinds(&branch);
     assert_eq!(found.len(), 1, "{found:?}");

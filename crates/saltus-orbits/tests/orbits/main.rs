@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod branches;
+mod curves;
 mod find;
 mod grazing;
 mod maps;

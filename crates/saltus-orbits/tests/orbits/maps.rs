@@ -78,12 +78,23 @@ pub(crate) fn delayed_logistic() -> Smooth<2> {
     })
 }
 
+/// (x, y) -> (p x - q y - x^3, x): at 0 the multipliers have the sum p and the product q.
+pub(crate) fn trace_and_determinant() -> Smooth<2> {
+    Smooth::new(|p, [x, y]| {
+        let slope = p[0] - 3.0 * x * x;
+        (
+            [p[0] * x - p[1] * y - x * x * x, x],
+            [[slope, -p[1]], [1.0, 0.0]],
+        )
+    })
+}
+
 /// x -> (1 + a) x - x^3: a pitchfork at a = 0, x^2 = a beyond.
 pub(crate) fn pitchfork() -> Smooth<1> {
     Smooth::new(|p, [x]| ([(1.0 + p[0]) * x - x * x * x], [[1.0 + p[0] - 3.0 * x * x]]))
 }
 
-/// x -> x + (p - x^2)(...) with the closed curve x^2 + p^2 = 1 of fixed points.
+/// x -> x + (1 - x^2 - p^2)/10 with the closed curve x^2 + p^2 = 1 of fixed points.
 pub(crate) fn circle() -> Smooth<1> {
     Smooth::new(|p, [x]| ([x + 0.1 * (1.0 - x * x - p[0] * p[0])], [[1.0 - 0.2 * x]]))
 }
@@ -104,8 +115,8 @@ pub(crate) fn bouncing_ball() -> Smooth<2> {
     })
 }
 
-/// x -> left x + mu for x < 0, right x + mu for x > 0, parameters mu, left, right. A visit to x > 0 is a
-/// switch there and back; from x < 0 the guard -x is touched.
+/// x -> left x + mu for x < wall, and with slope `right` beyond, parameters mu, left, right, wall. A visit
+/// to x > wall is a switch there and back; from x < wall the guard wall - x is touched.
 pub(crate) struct Border;
 
 /// Nordmark's map: (x, y) -> (a x + y + rho, -g x) for x < 0, (-sqrt x + y + rho, -g t^2 x) for x > 0,
@@ -119,9 +130,13 @@ impl Family for Border {
 
     fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
         let image = |shot: &Shot<'_>| {
-            let (p, x) = (shot.parameters, shot.start.x[0]);
-            let slope = if x < 0.0 { p[1] } else { p[2] };
-            visit(x, &[slope * x + p[0]], Matrix::from_fn(1, 1, |_, _| slope))
+            let [mu, left, right, wall] = shot.parameters[..] else {
+                return Err(Lost::NoMap("four parameters".into()));
+            };
+            let over = shot.start.x[0] - wall;
+            let slope = if over < 0.0 { left } else { right };
+            let to = left * wall + slope * over + mu;
+            visit(over, &[to], Matrix::from_fn(1, 1, |_, _| slope))
         };
         shots.iter().map(image).collect()
     }
