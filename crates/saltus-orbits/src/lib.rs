@@ -4,14 +4,32 @@
 //! Everything here asks a [`Family`] of maps; nothing knows whether that is a forced flow seen once per
 //! period, which may switch on the way, or two lines of algebra.
 
+mod beyond;
+mod branches;
+mod continuation;
+mod curve;
+mod events;
 mod exponents;
 mod flow;
 mod follow;
+mod follower;
+mod linear;
+mod locate;
 mod map;
 mod nature;
+mod orbit;
+mod shooting;
+mod special;
+mod switching;
 
+pub use branches::{BranchesOptions, Limb, branches};
+pub use continuation::{Along, Branch, ContinuationError, ContinuationOptions, End, Point};
+pub use curve::{Curve, CurvePoint, follow_curve};
 pub use exponents::{Dimension, Exponent, ExponentError, Running, Spectrum, Weighted};
 pub use flow::Stroboscopic;
-pub use follow::{Follower, spectrum_of};
+pub use follow::{follow, follow_both};
+pub use follower::{Follower, spectrum_of};
 pub use map::{Crossing, Family, Image, Lost, Matrix, Place, Shot, Touch};
 pub use nature::{Criteria, Doubt, Nature, Recurrence, Verdict, judge};
+pub use orbit::{Multiplier, NewtonOptions, NotFound, Orbit, find_orbit};
+pub use special::{Special, SpecialKind};

@@ -1,0 +1,74 @@
+//! Beyond a grazing at which the map has no derivative, where no small step leads.
+
+use crate::continuation::{Path, Point};
+use crate::linear::{dot, minus, norm};
+use crate::shooting::Guess;
+use crate::{Family, Shot, events};
+
+/// Offsets of the parameter from the grazing, in units of its range: with a square root in the map an
+/// orbit may lie as far as the root of the first.
+const OFFSETS: [f64; 6] = [1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
+
+/// Starts by iteration of the map, beside the grazing orbit itself.
+const ITERATES: usize = 4;
+
+/// An orbit found beyond must lie within so many roots of the offset.
+const NEAR: f64 = 10.0;
+
+impl<F: Family + ?Sized> Path<'_, F> {
+    /// The nearest orbit with other switches beyond a grazing that lies `ahead` of `last`, oriented away
+    /// from it. The branch may go on, or come back on the same side of the parameter.
+    pub(crate) fn beyond(&self, last: &Point, ahead: f64) -> Option<Point> {
+        let grazing = last.orbit.guess().moved(&self.free, ahead, &last.spread);
+        let onwards = if last.pace() < 0.0 { -1.0 } else { 1.0 };
+        let range = self.range[1] - self.range[0];
+        let tries = OFFSETS
+            .iter()
+            .flat_map(|offset| [onwards * offset, -onwards * offset]);
+        tries
+            .filter_map(|offset| self.near(last, &grazing, offset * range))
+            .next()
+    }
+
+    fn near(&self, last: &Point, grazing: &Guess, offset: f64) -> Option<Point> {
+        let index = self.free[0].index;
+        let mut guess = grazing.clone();
+        guess.parameters[index] += offset;
+        let [low, high] = self.range;
+        if !(low..=high).contains(&guess.parameters[index]) {
+            return None;
+        }
+        let reach = NEAR * (offset / (high - low)).abs().sqrt();
+        let old = events::sequence(&last.orbit);
+        for _ in 0..=ITERATES {
+            let found = self.solve(&guess, &self.upwards(), &self.upwards());
+            if let Ok(point) = found {
+                let way = self.apart(last, &point);
+                let new = !events::same(&old, &events::sequence(&point.orbit));
+                if new && norm(&way) <= reach {
+                    let away = dot(&point.tangent, &way) >= 0.0;
+                    return Some(if away { point } else { point.reversed() });
+                }
+            }
+            guess = self.iterated(&guess)?;
+        }
+        None
+    }
+
+    /// One period of the motion from the last place of a guess.
+    fn iterated(&self, guess: &Guess) -> Option<Guess> {
+        let mut next = guess.clone();
+        let mut at = guess.places[guess.places.len() - 1].clone();
+        for place in &mut next.places {
+            let shot = Shot {
+                parameters: &guess.parameters,
+                start: &at,
+                derivative: false,
+            };
+            at = self.family.images(&[shot]).pop()?.ok()?.place;
+            *place = at.clone();
+        }
+        let far = minus(&next.places[0].x, &guess.places[0].x);
+        norm(&far).is_finite().then_some(next)
+    }
+}

@@ -1,0 +1,45 @@
+//! The sequence of switches along an orbit, and how near it comes to another one.
+
+use crate::{Orbit, Touch};
+
+/// One switch: unit, mode left, mode entered.
+pub(crate) type Switch = (usize, usize, usize);
+
+/// All switches of one period in time order.
+pub(crate) fn sequence(orbit: &Orbit) -> Vec<Switch> {
+    orbit
+        .crossings
+        .iter()
+        .flatten()
+        .map(|crossing| (crossing.unit, crossing.from, crossing.to))
+        .collect()
+}
+
+/// Whether two sequences are the same up to where the period begins: a switch that wanders through the
+/// sampling instant changes nothing.
+pub(crate) fn same(a: &[Switch], b: &[Switch]) -> bool {
+    let n = a.len();
+    let rotated = |by| (0..n).all(|i| a[(i + by) % n] == b[i]);
+    n == b.len() && (n == 0 || (0..n).any(rotated))
+}
+
+/// The units of which one sequence has more switches than the other; none if they differ in order only.
+pub(crate) fn units_apart(a: &[Switch], b: &[Switch]) -> Vec<usize> {
+    let count = |all: &[Switch], switch: &Switch| all.iter().filter(|s| *s == switch).count();
+    let uneven = |s: &&Switch| count(a, s) != count(b, s);
+    let mut units: Vec<usize> = a.iter().chain(b).filter(uneven).map(|s| s.0).collect();
+    units.sort_unstable();
+    units.dedup();
+    units
+}
+
+/// The touch of an orbit with the smallest value, among those that `counts` lets through, and its iterate.
+pub(crate) fn nearest_touch(
+    orbit: &Orbit,
+    counts: impl Fn(usize, &Touch) -> bool,
+) -> Option<(usize, Touch)> {
+    let all = orbit.touches.iter().enumerate();
+    all.flat_map(|(iterate, touches)| touches.iter().map(move |touch| (iterate, *touch)))
+        .filter(|(iterate, touch)| touch.value.is_finite() && counts(*iterate, touch))
+        .min_by(|a, b| a.1.value.total_cmp(&b.1.value))
+}

@@ -1,0 +1,132 @@
+//! The few dense steps that orbits need. Every matrix is checked to be finite first: the solvers promise
+//! nothing otherwise.
+
+use crate::Matrix;
+use faer::linalg::solvers::{PartialPivLu, Solve};
+
+/// A pivot below this part of the largest one (or of 1, the size of the identity in M - I) says that a
+/// system has no solution worth the name: rounding alone makes pivots of some 1e-15.
+const SINGULAR: f64 = 1e-14;
+
+pub(crate) fn is_finite(a: &Matrix) -> bool {
+    (0..a.ncols()).all(|col| (0..a.nrows()).all(|row| a[(row, col)].is_finite()))
+}
+
+/// x = A^-1 b, unless A is singular or something is not finite.
+pub(crate) fn solve(a: &Matrix, b: &[f64]) -> Option<Vec<f64>> {
+    if !is_finite(a) || b.iter().any(|value| !value.is_finite()) {
+        return None;
+    }
+    let lu = PartialPivLu::new(a.as_ref());
+    let pivots = (0..a.nrows()).map(|i| lu.U()[(i, i)].abs());
+    let (least, most) = pivots.fold((f64::INFINITY, 1.0_f64), |(least, most), pivot| {
+        (least.min(pivot), most.max(pivot))
+    });
+    if least <= SINGULAR * most {
+        return None;
+    }
+    let x = lu.solve(Matrix::from_fn(b.len(), 1, |row, _| b[row]));
+    let x: Vec<f64> = (0..b.len()).map(|row| x[(row, 0)]).collect();
+    x.iter().all(|value| value.is_finite()).then_some(x)
+}
+
+/// Eigenvalues as (real part, imaginary part), unless A is not finite or the iteration fails.
+pub(crate) fn eigenvalues(a: &Matrix) -> Option<Vec<(f64, f64)>> {
+    if !is_finite(a) {
+        return None;
+    }
+    let values = a.eigenvalues().ok()?;
+    Some(values.iter().map(|value| (value.re, value.im)).collect())
+}
+
+/// The unit vector that A shortens most, for A with one column more than rows. Where A shortens a whole
+/// plane to less than `noise`, that vector of the plane that is nearest to `ahead`.
+pub(crate) fn tangent(a: &Matrix, noise: f64, ahead: &[f64]) -> Option<Vec<f64>> {
+    let plane = null_space(a, 2.min(a.ncols()))?;
+    let (last, others) = plane.split_last()?;
+    let known = others.iter().all(|v| size(&times(a, v)) > noise);
+    let tangent = if known {
+        last.clone()
+    } else {
+        let onto = |sum: Vec<f64>, v: &Vec<f64>| plus(&sum, dot(v, ahead), v);
+        unit(&plane.iter().fold(vec![0.0; ahead.len()], onto))
+    };
+    let sign = dot(&tangent, ahead).signum();
+    let tangent: Vec<f64> = tangent.iter().map(|value| sign * value).collect();
+    tangent
+        .iter()
+        .all(|value| value.is_finite())
+        .then_some(tangent)
+}
+
+/// The `count` orthonormal vectors that A shortens most, for A with at least as many columns as rows: its
+/// null space where A has one of that dimension. The most shortened is the last.
+pub(crate) fn null_space(a: &Matrix, count: usize) -> Option<Vec<Vec<f64>>> {
+    if !is_finite(a) {
+        return None;
+    }
+    let svd = a.svd().ok()?;
+    let (v, cols) = (svd.V(), a.ncols());
+    let column = |col| (0..cols).map(|row| v[(row, col)]).collect();
+    Some((cols - count..cols).map(column).collect())
+}
+
+/// det A; not a number if A is not finite.
+pub(crate) fn determinant(a: &Matrix) -> f64 {
+    if is_finite(a) {
+        a.determinant()
+    } else {
+        f64::NAN
+    }
+}
+
+/// The vector that A turns into `mu` times itself, of length 1, for an eigenvalue `mu` that is real.
+pub(crate) fn eigenvector(a: &Matrix, mu: f64) -> Option<Vec<f64>> {
+    let n = a.nrows();
+    null_space(&shifted(a, mu), 1)?
+        .pop()
+        .filter(|v| v.len() == n)
+}
+
+/// A - mu I.
+pub(crate) fn shifted(a: &Matrix, mu: f64) -> Matrix {
+    Matrix::from_fn(a.nrows(), a.ncols(), |row, col| {
+        a[(row, col)] - if row == col { mu } else { 0.0 }
+    })
+}
+
+/// A x.
+pub(crate) fn times(a: &Matrix, x: &[f64]) -> Vec<f64> {
+    (0..a.nrows())
+        .map(|row| (0..a.ncols()).map(|col| a[(row, col)] * x[col]).sum())
+        .collect()
+}
+
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+pub(crate) fn norm(a: &[f64]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+/// Largest absolute value.
+pub(crate) fn size(a: &[f64]) -> f64 {
+    a.iter().fold(0.0, |most, value| value.abs().max(most))
+}
+
+/// a - b.
+pub(crate) fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
+}
+
+/// a + factor b.
+pub(crate) fn plus(a: &[f64], factor: f64, b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a + factor * b).collect()
+}
+
+/// a / |a|.
+pub(crate) fn unit(a: &[f64]) -> Vec<f64> {
+    let length = norm(a);
+    a.iter().map(|value| value / length).collect()
+}

@@ -1,0 +1,236 @@
+//! Periodic orbits of a map and their Floquet multipliers.
+
+use crate::linear::{self, minus, size};
+use crate::shooting::{Guess, Pass, Shooting};
+use crate::{Crossing, Family, Lost, Matrix, Place, Touch};
+
+/// Two places of an orbit nearer than this, relative to the largest state or 1, are one place: a residual
+/// at the default tolerance leaves places uncertain by less, except within 1e-13 of a period doubling.
+const SAME: f64 = 1e-7;
+
+/// How orbits are solved for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NewtonOptions {
+    /// Largest component of P(x_i) - x_(i+1), relative to the largest state or 1. The default is what flows
+    /// solved to 1e-13 can reach.
+    pub tolerance: f64,
+    /// Newton steps at most; from a good guess it takes 3 to 5.
+    pub iterations: usize,
+    /// Into how many pieces an orbit is cut, from 1 to its period. `None` cuts at every iterate, which is the
+    /// least sensitive and lets all shots run side by side.
+    pub segments: Option<usize>,
+}
+
+impl Default for NewtonOptions {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-11,
+            iterations: 18,
+            segments: None,
+        }
+    }
+}
+
+/// An eigenvalue of the derivative of the map once around an orbit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Multiplier {
+    /// Real part.
+    pub re: f64,
+    /// Imaginary part.
+    pub im: f64,
+}
+
+impl Multiplier {
+    /// Its absolute value: the factor by which a disturbance grows in one period of the orbit.
+    pub fn modulus(self) -> f64 {
+        self.re.hypot(self.im)
+    }
+
+    /// Its angle, from -pi to pi (rad).
+    pub fn argument(self) -> f64 {
+        self.im.atan2(self.re)
+    }
+}
+
+/// A periodic orbit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Orbit {
+    /// Value of each parameter.
+    pub parameters: Vec<f64>,
+    /// Its places, one per iterate: as many as the period.
+    pub places: Vec<Place>,
+    /// Floquet multipliers, by falling modulus.
+    pub multipliers: Vec<Multiplier>,
+    /// Derivative of the map once around, at the first place.
+    pub monodromy: Matrix,
+    /// Switches on the way from each place to the next, in time order.
+    pub crossings: Vec<Vec<Crossing>>,
+    /// Where a guard came to an extremum without a switch on the way from each place to the next.
+    pub touches: Vec<Vec<Touch>>,
+    /// Largest component of P(x_i) - x_(i+1).
+    pub residual: f64,
+    /// Newton steps that were taken.
+    pub iterations: usize,
+}
+
+impl Orbit {
+    /// Number of iterates.
+    pub fn period(&self) -> usize {
+        self.places.len()
+    }
+
+    /// How many multipliers lie outside the unit circle.
+    pub fn outside(&self) -> usize {
+        let grows = |multiplier: &&Multiplier| multiplier.modulus() > 1.0;
+        self.multipliers.iter().filter(grows).count()
+    }
+
+    /// Whether all multipliers lie inside the unit circle.
+    pub fn stable(&self) -> bool {
+        self.multipliers.iter().all(|m| m.modulus() < 1.0)
+    }
+
+    /// The orbit of a converged pass, unless its derivative overflows.
+    pub(crate) fn of(pass: &Pass) -> Result<Self, NotFound> {
+        let solved = pass
+            .around()
+            .and_then(|(m, _)| Some((linear::eigenvalues(&m)?, m)));
+        let Some((values, monodromy)) = solved else {
+            return Err(NotFound::Singular {
+                residual: pass.residual,
+                places: pass.places.clone(),
+            });
+        };
+        let mut multipliers: Vec<Multiplier> = values
+            .into_iter()
+            .map(|(re, im)| Multiplier { re, im })
+            .collect();
+        multipliers.sort_by(|a, b| {
+            let falling = b.modulus().total_cmp(&a.modulus());
+            falling.then(b.im.total_cmp(&a.im))
+        });
+        Ok(Self {
+            parameters: pass.parameters.clone(),
+            places: pass.places.clone(),
+            multipliers,
+            monodromy,
+            crossings: pass.images.iter().map(|i| i.crossings.clone()).collect(),
+            touches: pass.images.iter().map(|i| i.touches.clone()).collect(),
+            residual: pass.residual,
+            iterations: pass.iterations,
+        })
+    }
+
+    pub(crate) fn guess(&self) -> Guess {
+        Guess {
+            parameters: self.parameters.clone(),
+            places: self.places.clone(),
+        }
+    }
+}
+
+/// Why there is no orbit. Each says how far Newton's method came.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NotFound {
+    /// No place to begin with.
+    #[error("an orbit needs one place per iterate, and none was given")]
+    NoPlaces,
+    /// A start that is no state of the map.
+    #[error("place {place} of the start must hold {dimension} finite numbers")]
+    BadPlace {
+        /// Which, from 0.
+        place: usize,
+        /// Length of a state.
+        dimension: usize,
+    },
+    /// The residual stopped falling, or fell too slowly.
+    #[error(
+        "Newton's method came to a residual of {residual:.1e} in {iterations} steps and no further; \
+         try a start nearer to the orbit"
+    )]
+    NotConverged {
+        /// Steps taken.
+        iterations: usize,
+        /// Largest component of P(x_i) - x_(i+1).
+        residual: f64,
+        /// The last guess.
+        places: Vec<Place>,
+    },
+    /// The equations for a step have no unique solution.
+    #[error(
+        "the equations of Newton's method are singular at a residual of {residual:.1e}: \
+         a fold or a branch point is near, or the derivative overflows"
+    )]
+    Singular {
+        /// Largest component of P(x_i) - x_(i+1).
+        residual: f64,
+        /// The last guess.
+        places: Vec<Place>,
+    },
+    /// The map has no image there.
+    #[error("Newton's method left the map at a residual of {residual:.1e}: {reason}")]
+    Lost {
+        /// What the map said.
+        reason: Lost,
+        /// Largest component of P(x_i) - x_(i+1); infinite at the start.
+        residual: f64,
+        /// The last guess that has images, or the start.
+        places: Vec<Place>,
+    },
+}
+
+/// The periodic orbit near `start`, which has one place per iterate.
+///
+/// Newton's method with multiple shooting; a step is cut as long as it makes the residual grow. The
+/// orbit has the shortest period: a start of four places that leads to a 2-cycle gives two. The first
+/// place of the orbit is the one near `start[0]`. Modes of a start that contradict the motion are replaced.
+///
+/// # Errors
+/// If the start is no orbit's start, or no orbit was found: see [`NotFound`].
+pub fn find_orbit<F: Family + ?Sized>(
+    family: &F,
+    parameters: &[f64],
+    start: &[Place],
+    options: &NewtonOptions,
+) -> Result<Orbit, NotFound> {
+    check(family, start)?;
+    let shooting = Shooting {
+        family,
+        free: &[],
+        newton: options,
+    };
+    let solve = |places: &[Place]| {
+        let guess = Guess {
+            parameters: parameters.to_vec(),
+            places: places.to_vec(),
+        };
+        Orbit::of(&shooting.correct(&guess, &[])?)
+    };
+    let orbit = solve(start)?;
+    match shortest_period(&orbit.places) {
+        period if period == orbit.period() => Ok(orbit),
+        period => solve(&orbit.places[..period]),
+    }
+}
+
+fn check<F: Family + ?Sized>(family: &F, start: &[Place]) -> Result<(), NotFound> {
+    let dimension = family.dimension();
+    let bad = |place: &Place| place.x.len() != dimension || place.x.iter().any(|x| !x.is_finite());
+    match start.iter().position(bad) {
+        Some(place) => Err(NotFound::BadPlace { place, dimension }),
+        None if start.is_empty() => Err(NotFound::NoPlaces),
+        None => Ok(()),
+    }
+}
+
+/// After how many iterates the places repeat.
+pub(crate) fn shortest_period(places: &[Place]) -> usize {
+    let n = places.len();
+    let scale = places.iter().map(|p| size(&p.x)).fold(1.0, f64::max);
+    let repeats = |m: &usize| {
+        let same = |i: usize| size(&minus(&places[i].x, &places[(i + m) % n].x)) <= SAME * scale;
+        n.is_multiple_of(*m) && (0..n).all(same)
+    };
+    (1..n).find(repeats).unwrap_or(n)
+}

@@ -1,0 +1,146 @@
+//! Special points of a branch, and what tells that there is one between two of its points.
+
+use crate::continuation::Point;
+use crate::{Multiplier, Orbit, events};
+
+/// What happens at a special point.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum SpecialKind {
+    /// The branch turns back in the parameter: a multiplier is +1.
+    Fold,
+    /// Another branch of the same period crosses: a multiplier is +1.
+    BranchPoint,
+    /// The branch meets that of half its period, at a period doubling of the latter, and ends there.
+    Halving,
+    /// A branch of twice the period begins: a multiplier is -1.
+    PeriodDoubling,
+    /// A pair of complex multipliers passes the unit circle, and an invariant curve begins.
+    NeimarkSacker {
+        /// Angle of the multiplier in the upper half plane (rad).
+        angle: f64,
+    },
+    /// Switches appear or vanish: a guard touches zero. Multipliers may jump there.
+    Grazing {
+        /// The unit that switches.
+        unit: usize,
+    },
+    /// The same switches in another order: two units switch at once.
+    Reordering,
+}
+
+impl SpecialKind {
+    /// The usual short name, such as `PD`.
+    pub fn short(&self) -> &'static str {
+        match self {
+            Self::Fold => "LP",
+            Self::BranchPoint => "BP",
+            Self::Halving => "HP",
+            Self::PeriodDoubling => "PD",
+            Self::NeimarkSacker { .. } => "NS",
+            Self::Grazing { .. } => "GR",
+            Self::Reordering => "SO",
+        }
+    }
+}
+
+/// A special point of a branch.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Special {
+    /// Short name and number, such as `PD1`; the numbers follow the order in which points were found.
+    pub label: String,
+    /// What it is.
+    pub kind: SpecialKind,
+    /// Value of the parameter.
+    pub parameter: f64,
+    /// The orbit there, or next to it where there is none: the last one before a grazing.
+    pub orbit: Orbit,
+    /// It lies between this point of the branch and the next.
+    pub after: usize,
+    /// Number of multipliers outside the unit circle before and after.
+    pub outside: [usize; 2],
+    /// What else is to be said, in words.
+    pub remark: Option<String>,
+    /// Unit tangent of the branch there: first place, then the parameter.
+    pub(crate) tangent: Vec<f64>,
+}
+
+/// What may differ between two points of a branch, the more telling first: at a grazing multipliers may
+/// jump, and where a branch meets another one from the side it turns too.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Test {
+    Events,
+    BranchPoint,
+    PeriodDoubling,
+    Fold,
+    NeimarkSacker,
+}
+
+/// What changes between two points.
+pub(crate) fn changes(a: &Point, b: &Point) -> Vec<Test> {
+    let flips = |a: &Point| real(&a.orbit).filter(|mu| *mu < -1.0).count();
+    let events = !events::same(&events::sequence(&a.orbit), &events::sequence(&b.orbit));
+    let mut all = Vec::new();
+    let mut put = |test, there| {
+        if there {
+            all.push(test);
+        }
+    };
+    put(Test::Events, events);
+    put(Test::BranchPoint, (a.side < 0.0) != (b.side < 0.0));
+    put(Test::PeriodDoubling, flips(a) % 2 != flips(b) % 2);
+    put(Test::Fold, (a.pace() < 0.0) != (b.pace() < 0.0));
+    // The others take one multiplier each through the circle.
+    let pairs = a.outside.abs_diff(b.outside) >= 2 + all.len();
+    if pairs {
+        all.push(Test::NeimarkSacker);
+    }
+    all
+}
+
+impl Test {
+    /// A number that passes zero, smoothly, where this happens.
+    pub(crate) fn value(self, point: &Point) -> Option<f64> {
+        match self {
+            Self::Events => None,
+            Self::BranchPoint => Some(point.side),
+            Self::PeriodDoubling => {
+                let above = real(&point.orbit).map(|mu| mu + 1.0);
+                above.min_by(|a, b| a.abs().total_cmp(&b.abs()))
+            }
+            Self::Fold => Some(point.pace()),
+            Self::NeimarkSacker => Some(critical_pair(&point.orbit)?.modulus() - 1.0),
+        }
+    }
+
+    /// What was found between two points that are next to each other, the first of which is at hand.
+    pub(crate) fn kind(self, a: &Orbit, b: &Orbit) -> Option<SpecialKind> {
+        Some(match self {
+            Self::BranchPoint => SpecialKind::BranchPoint,
+            Self::PeriodDoubling => SpecialKind::PeriodDoubling,
+            Self::Fold => SpecialKind::Fold,
+            Self::NeimarkSacker => SpecialKind::NeimarkSacker {
+                angle: critical_pair(a)?.argument(),
+            },
+            Self::Events => {
+                let units = events::units_apart(&events::sequence(a), &events::sequence(b));
+                match units.first() {
+                    Some(&unit) => SpecialKind::Grazing { unit },
+                    None => SpecialKind::Reordering,
+                }
+            }
+        })
+    }
+}
+
+fn real(orbit: &Orbit) -> impl Iterator<Item = f64> {
+    let real = orbit.multipliers.iter().filter(|mu| mu.im == 0.0);
+    real.map(|mu| mu.re)
+}
+
+/// The multiplier of the upper half plane that is nearest to the unit circle.
+pub(crate) fn critical_pair(orbit: &Orbit) -> Option<Multiplier> {
+    let off = |mu: &Multiplier| (mu.modulus() - 1.0).abs();
+    let upper = orbit.multipliers.iter().filter(|mu| mu.im > 0.0).copied();
+    upper.min_by(|a, b| off(a).total_cmp(&off(b)))
+}

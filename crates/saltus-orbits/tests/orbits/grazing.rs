@@ -1,0 +1,82 @@
+//! Branches whose switches change.
+
+use crate::maps::{Border, Nordmark};
+use saltus_orbits::{
+    Along, Branch, ContinuationOptions, End, Family, NewtonOptions, Orbit, Place, SpecialKind,
+    find_orbit, follow_both,
+};
+
+fn orbit(family: &impl Family, parameters: &[f64], x: &[f64]) -> Orbit {
+    let start = Place {
+        modes: vec![0],
+        x: x.to_vec(),
+    };
+    find_orbit(family, parameters, &[start], &NewtonOptions::default()).unwrap()
+}
+
+fn both(family: &impl Family, start: &Orbit) -> Branch {
+    let range = Along {
+        parameter: 0,
+        from: -0.5,
+        to: 0.5,
+    };
+    let options = ContinuationOptions::default();
+    follow_both(family, start, &range, &options, &mut |_| true).unwrap()
+}
+
+fn kinds(branch: &Branch) -> Vec<(&str, f64)> {
+    let one = |s: &saltus_orbits::Special| (s.kind.short(), s.parameter);
+    branch.specials.iter().map(one).collect()
+}
+
+#[test]
+fn an_orbit_that_persists_across_the_border_is_followed_across() {
+    // Slopes 0.5 and -0.5: a fixed point on either side, mu/(1 - slope).
+    let start = orbit(&Border, &[-0.2, 0.5, -0.5, 0.0], &[-0.4]);
+    let branch = both(&Border, &start);
+    let found = kinds(&branch);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert_eq!(branch.specials[0].kind, SpecialKind::Grazing { unit: 0 });
+    assert!(found[0].1.abs() < 1e-9);
+    assert_eq!(branch.ends, [End::RangeEnd, End::RangeEnd]);
+    assert_eq!(branch.specials[0].remark, None);
+}
+
+#[test]
+fn stability_lost_at_a_border_is_said_to_be_lost_there() {
+    let start = orbit(&Border, &[-0.2, 0.5, -1.5, 0.0], &[-0.4]);
+    let branch = both(&Border, &start);
+    assert_eq!(kinds(&branch).len(), 1, "{:?}", kinds(&branch));
+    assert_eq!(branch.specials[0].outside, [0, 1]);
+    assert!(branch.specials[0].remark.is_some());
+}
+
+#[test]
+fn a_fold_at_a_border_goes_back_the_way_it_came() {
+    // Slopes 0.5 and 2: fixed points on both sides for mu < 0, none for mu > 0.
+    let start = orbit(&Border, &[-0.2, 0.5, 2.0, 0.0], &[-0.4]);
+    let branch = both(&Border, &start);
+    let found = kinds(&branch);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(found[0].0 == "GR" && found[0].1.abs() < 1e-9, "{found:?}");
+    let ends = [0, branch.points.len() - 1].map(|i| &branch.points[i]);
+    assert!(ends.iter().all(|point| point.parameter == -0.5));
+    assert!(ends[0].orbit.places[0].x[0] * ends[1].orbit.places[0].x[0] < 0.0);
+}
+
+#[test]
+fn an_impact_with_a_square_root_is_found_and_passed() {
+    // The fixed point without impact, x = rho/(1 - a + g), grazes at rho = 0. Beyond it the fixed point
+    // with impact has sqrt x = (-1 + sqrt(1 + 4 rho (1 + g t^2)))/(2 (1 + g t^2)).
+    let (a, g, t) = (0.4, 0.3, 0.8_f64);
+    let start = orbit(&Nordmark, &[-0.2, a, g, t], &[-0.2, 0.06]);
+    let branch = both(&Nordmark, &start);
+    let found = kinds(&branch);
+    assert_eq!(found[0].0, "GR", "{found:?} {:?}", branch.ends);
+    assert!(found[0].1.abs() < 1e-8, "{found:?}");
+    let last = branch.points.last().unwrap();
+    assert_eq!((last.parameter, &branch.ends[1]), (0.5, &End::RangeEnd));
+    let c = 1.0 + g * t * t;
+    let root = (-1.0 + (1.0 + 2.0 * c).sqrt()) / (2.0 * c);
+    assert!((last.orbit.places[0].x[0] - root * root).abs() < 1e-10);
+}

@@ -1,0 +1,201 @@
+//! Maps with known answers.
+
+use saltus_orbits::{Crossing, Family, Image, Lost, Matrix, Place, Shot, Touch};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A map given by a formula for its image and the rows of its derivative.
+pub(crate) struct Smooth<const N: usize> {
+    pub(crate) map: fn(&[f64], [f64; N]) -> ([f64; N], [[f64; N]; N]),
+    /// Parameter 0 ends here.
+    pub(crate) until: f64,
+    /// Calls so far.
+    pub(crate) calls: AtomicUsize,
+    /// Answers `Interrupted` after so many calls.
+    pub(crate) patience: usize,
+}
+
+impl<const N: usize> Smooth<N> {
+    pub(crate) fn new(map: fn(&[f64], [f64; N]) -> ([f64; N], [[f64; N]; N])) -> Self {
+        Self {
+            map,
+            until: f64::INFINITY,
+            calls: AtomicUsize::new(0),
+            patience: usize::MAX,
+        }
+    }
+}
+
+impl<const N: usize> Family for Smooth<N> {
+    fn dimension(&self) -> usize {
+        N
+    }
+
+    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
+        let stop = self.calls.fetch_add(1, Ordering::Relaxed) >= self.patience;
+        let image = |shot: &Shot<'_>| {
+            if stop {
+                return Err(Lost::Interrupted);
+            }
+            if shot.parameters.first().is_some_and(|p| *p > self.until) {
+                return Err(Lost::NoMap(format!("no map above {}", self.until)));
+            }
+            let (x, rows) = (self.map)(shot.parameters, shot.start.x[..].try_into().unwrap());
+            Ok(Image {
+                place: at(&x),
+                derivative: Some(Matrix::from_fn(N, N, |row, col| rows[row][col])),
+                crossings: Vec::new(),
+                touches: Vec::new(),
+            })
+        };
+        shots.iter().map(image).collect()
+    }
+}
+
+pub(crate) fn at(x: &[f64]) -> Place {
+    Place {
+        modes: Vec::new(),
+        x: x.to_vec(),
+    }
+}
+
+/// x -> r x (1 - x).
+pub(crate) fn logistic() -> Smooth<1> {
+    Smooth::new(|p, [x]| ([p[0] * x * (1.0 - x)], [[p[0] * (1.0 - 2.0 * x)]]))
+}
+
+/// (x, y) -> (a - x^2 + b y, x), parameters a and b.
+pub(crate) fn henon() -> Smooth<2> {
+    Smooth::new(|p, [x, y]| ([p[0] - x * x + p[1] * y, x], [[-2.0 * x, p[1]], [1.0, 0.0]]))
+}
+
+/// (x, y) -> (r x (1 - y), x).
+pub(crate) fn delayed_logistic() -> Smooth<2> {
+    Smooth::new(|p, [x, y]| {
+        (
+            [p[0] * x * (1.0 - y), x],
+            [[p[0] * (1.0 - y), -p[0] * x], [1.0, 0.0]],
+        )
+    })
+}
+
+/// (x, y) -> (p x - q y - x^3, x): at 0 the multipliers have the sum p and the product q.
+pub(crate) fn trace_and_determinant() -> Smooth<2> {
+    Smooth::new(|p, [x, y]| {
+        let slope = p[0] - 3.0 * x * x;
+        (
+            [p[0] * x - p[1] * y - x * x * x, x],
+            [[slope, -p[1]], [1.0, 0.0]],
+        )
+    })
+}
+
+/// x -> (1 + a) x - x^3: a pitchfork at a = 0, x^2 = a beyond.
+pub(crate) fn pitchfork() -> Smooth<1> {
+    Smooth::new(|p, [x]| ([(1.0 + p[0]) * x - x * x * x], [[1.0 + p[0] - 3.0 * x * x]]))
+}
+
+/// x -> x + (1 - x^2 - p^2)/10 with the closed curve x^2 + p^2 = 1 of fixed points.
+pub(crate) fn circle() -> Smooth<1> {
+    Smooth::new(|p, [x]| ([x + 0.1 * (1.0 - x * x - p[0] * p[0])], [[1.0 - 0.2 * x]]))
+}
+
+/// The high-bounce map of a ball on a table that shakes: phase and speed, parameters gamma and e.
+/// phase' = phase + v, v' = e v + gamma (1 + e) cos(phase') (Holmes 1982). The phase is taken less 2 pi,
+/// so one bounce per period is a fixed point.
+pub(crate) fn bouncing_ball() -> Smooth<2> {
+    Smooth::new(|p, [phase, v]| {
+        let (gamma, e) = (p[0], p[1]);
+        let next = phase + v - std::f64::consts::TAU;
+        let (sin, cos) = next.sin_cos();
+        let kick = -gamma * (1.0 + e) * sin;
+        (
+            [next, e * v + gamma * (1.0 + e) * cos],
+            [[1.0, 1.0], [kick, e + kick]],
+        )
+    })
+}
+
+/// x -> left x + mu for x < wall, and with slope `right` beyond, parameters mu, left, right, wall. A visit
+/// to x > wall is a switch there and back; from x < wall the guard wall - x is touched.
+pub(crate) struct Border;
+
+/// Nordmark's map: (x, y) -> (a x + y + rho, -g x) for x < 0, (-sqrt x + y + rho, -g t^2 x) for x > 0,
+/// parameters rho, a, g, t (Nordmark 1991). x > 0 is an impact.
+pub(crate) struct Nordmark;
+
+impl Family for Border {
+    fn dimension(&self) -> usize {
+        1
+    }
+
+    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
+        let image = |shot: &Shot<'_>| {
+            let [mu, left, right, wall] = shot.parameters[..] else {
+                return Err(Lost::NoMap("four parameters".into()));
+            };
+            let over = shot.start.x[0] - wall;
+            let slope = if over < 0.0 { left } else { right };
+            let to = left * wall + slope * over + mu;
+            visit(over, &[to], Matrix::from_fn(1, 1, |_, _| slope))
+        };
+        shots.iter().map(image).collect()
+    }
+}
+
+impl Family for Nordmark {
+    fn dimension(&self) -> usize {
+        2
+    }
+
+    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
+        let image = |shot: &Shot<'_>| {
+            let [rho, a, g, t] = shot.parameters[..] else {
+                return Err(Lost::NoMap("four parameters".into()));
+            };
+            let (x, y) = (shot.start.x[0], shot.start.x[1]);
+            let (u, du, gain) = if x <= 0.0 {
+                (a * x, a, g)
+            } else {
+                (-x.sqrt(), -0.5 / x.sqrt(), g * t * t)
+            };
+            let rows = [[du, 1.0], [-gain, 0.0]];
+            visit(
+                x,
+                &[u + y + rho, -gain * x],
+                Matrix::from_fn(2, 2, |row, col| rows[row][col]),
+            )
+        };
+        shots.iter().map(image).collect()
+    }
+}
+
+/// An image with a switch there and back if x > 0, and a touch of -x otherwise.
+fn visit(x: f64, to: &[f64], derivative: Matrix) -> Result<Image, Lost> {
+    let crossing = |from, to, at| Crossing {
+        unit: 0,
+        from,
+        to,
+        at,
+    };
+    let touch = Touch {
+        unit: 0,
+        mode: 0,
+        guard: 0,
+        value: -x,
+        at: 0.5,
+    };
+    let there = x > 0.0;
+    Ok(Image {
+        place: Place {
+            modes: vec![0],
+            x: to.to_vec(),
+        },
+        derivative: Some(derivative),
+        crossings: if there {
+            vec![crossing(0, 1, 0.4), crossing(1, 0, 0.6)]
+        } else {
+            Vec::new()
+        },
+        touches: if there { Vec::new() } else { vec![touch] },
+    })
+}
