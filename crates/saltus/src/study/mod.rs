@@ -13,7 +13,7 @@ mod settle;
 mod sweep;
 mod trajectory;
 
-pub use attractor::{Attractor, Found, Kind, Lost, Range, Search, attractors};
+pub use attractor::{Arrival, Attractor, Found, Kind, Lost, Range, Search, attractors};
 pub use basins::{Catalogue, Entry, SAME};
 pub use classify::MAX_PERIOD;
 pub(crate) use ensemble::in_parallel;
