@@ -70,6 +70,11 @@ pub enum StudyError {
     /// No integration.
     #[error(transparent)]
     Integrate(#[from] IntegrateError),
+    /// Attractors of an empty plate.
+    #[error(
+        "attractors are told apart by how people move, and nobody is on the plate; it needs a jumper"
+    )]
+    NobodyMoves,
 }
 
 impl From<crate::physics::PhysicsError> for StudyError {

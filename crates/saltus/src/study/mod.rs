@@ -2,11 +2,15 @@
 
 mod attractor;
 mod basins;
+mod branches;
+mod census;
 mod classify;
 mod ensemble;
 mod exponent;
+mod follow;
 mod fraction;
 mod map;
+mod matching;
 pub mod paper;
 mod peaks;
 mod recurrence;
@@ -17,10 +21,13 @@ mod trajectory;
 
 pub use attractor::{Arrival, Attractor, Found, Kind, Lost, Range, Search, attractors};
 pub use basins::{Catalogue, Entry, SAME};
+pub use branches::{Branches, Hysteresis, Identity, Row, Turn};
+pub use census::{Census, Counted};
 pub use classify::MAX_PERIOD;
 pub(crate) use ensemble::in_parallel;
 pub use ensemble::{Control, StudyError};
 pub use exponent::{Exponent, largest_exponents};
+pub use follow::{census, follow};
 pub use fraction::Fraction;
 pub use map::{Grid, map};
 pub use recurrence::recurrence;
