@@ -84,12 +84,15 @@ fn a_slow_transient_is_no_attractor_and_counts_for_what_it_becomes() {
     let found = census(&model, &starts, &Search::default(), &control(0)).expect("runs");
     assert_eq!(found.attractors.len(), 1);
     assert_eq!(found.attractors[0].entry.attractor.kind, Kind::Periodic(8));
-    assert_eq!(found.attractors[0].fraction.count, band + cycle);
+    // and those that one search leaves undecided
+    assert!(found.attractors[0].fraction.count >= band + cycle);
+    assert_eq!(found.attractors[0].fraction.count + without(&found), 24);
 }
 
 #[test]
 fn an_attractor_that_no_start_meets_is_found_from_its_neighbours() {
-    // zeta_h 0.12 at 0.9: of a thousand starts of this box 969 lead to one 2-cycle and 3 to another
+    // zeta_h 0.12 at 0.9, 4096 starts of this box: 97.0 % lead to one 2-cycle and 3.0 % to another, nine in ten
+    // of these undecided after 400 periods since it is about to double its period
     let values = [0.10, 0.11, 0.12];
     let found = followed(&values, 0.9, 48, 0);
     let there = found.rows[2].attractors();
@@ -99,9 +102,9 @@ fn an_attractor_that_no_start_meets_is_found_from_its_neighbours() {
     assert_eq!(often.entry.attractor.kind, Kind::Periodic(2));
     assert_eq!(rare.entry.attractor.kind, Kind::Periodic(2));
     let [low, high] = often.fraction.interval();
-    assert!(low < 0.969 && 0.969 < high, "{low} {high}");
+    assert!(low < 0.970 && 0.970 < high, "{low} {high}");
     assert_eq!(rare.fraction.count, 0);
-    assert!(0.003 < Fraction::unseen(48) && 0.003 < rare.fraction.interval()[1]);
+    assert!(0.030 < Fraction::unseen(48) && 0.030 < rare.fraction.interval()[1]);
     // it is the 4-cycle of smaller damping
     let before = &found.rows[1].attractors()[rare.identity];
     assert_eq!(before.identity, rare.identity);

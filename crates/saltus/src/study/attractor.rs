@@ -49,6 +49,15 @@ pub struct Found {
     pub arrival: Option<Arrival>,
 }
 
+impl Found {
+    /// The last state of a motion that is undecided, to go on from.
+    pub(super) fn undecided_at(&self) -> Option<&Point> {
+        let motion = self.attractor.as_ref().ok()?;
+        let arrival = self.arrival.as_ref()?;
+        (motion.kind == Kind::Undecided).then_some(&arrival.point)
+    }
+}
+
 /// Where a start has arrived: what it takes to draw the motion and to go on from it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arrival {

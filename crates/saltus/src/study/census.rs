@@ -13,7 +13,7 @@ use saltus_hybrid::Point;
 pub struct Census {
     /// The attractors, those with the most starts first.
     pub attractors: Vec<Counted>,
-    /// Starts still on their way when the time was up.
+    /// Starts still on their way after eight searches; they count for no attractor.
     pub undecided: Fraction,
     /// Starts whose run ended early.
     pub lost: Fraction,

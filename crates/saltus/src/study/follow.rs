@@ -6,8 +6,8 @@
 //! the same are known by the dynamics and not by their looks: "seeded continuation" [DRW 2023].
 //!
 //! What has not surely settled is first run on in place. A slow transient that looked like a band or a longer
-//! cycle becomes what it leads to, and its starts count for that. A carried motion that is undecided, say at a
-//! period doubling, is run on likewise, and if it stays undecided it is carried to the next value as it is.
+//! cycle becomes what it leads to, and its starts count for that. A start or a carried motion that is undecided, say
+//! at a period doubling, is run on likewise; a carried one that stays undecided goes to the next value as it is.
 //!
 //! `matching` says when two attractors are the same, and `branches` what follows.
 
@@ -114,17 +114,28 @@ struct Errand {
 }
 
 impl Journey<'_> {
-    /// Runs all starts at all values.
+    /// Runs all starts at all values, those that stay undecided with patience.
     fn count(&mut self, starts: &Starts) -> Result<(), StudyError> {
         let at: Vec<usize> = (0..self.places.len())
             .filter(|&at| self.places[at].model.is_ok())
             .collect();
+        let model_of = |number: usize| self.places[at[number / starts.count]].model.clone();
         let start_at = |number: usize| {
-            let model = self.places[at[number / starts.count]].model.clone()?;
+            let model = model_of(number)?;
             let point = starts.point(&model, number % starts.count);
             Ok((model, point))
         };
-        let found = self.run(at.len() * starts.count, start_at)?;
+        let mut found = self.run(at.len() * starts.count, start_at)?;
+        for _ in 1..PATIENCE {
+            let points = found.iter().enumerate();
+            let open: Vec<(usize, Point)> = points
+                .filter_map(|(number, found)| Some((number, found.undecided_at()?.clone())))
+                .collect();
+            let go_on = |i: usize| Ok((model_of(open[i].0)?, open[i].1.clone()));
+            for (i, later) in self.run(open.len(), go_on)?.into_iter().enumerate() {
+                found[open[i].0] = later;
+            }
+        }
         for (number, found) in found.into_iter().enumerate() {
             self.places[at[number / starts.count]].tally.count(found);
         }
