@@ -45,7 +45,21 @@ impl Model {
     /// # Panics
     /// If there are more values than bodies.
     pub fn start_each(&self, z: &[f64], v: &[f64]) -> Point {
+        self.start_deflected(z, v, &[])
+    }
+
+    /// As [`Model::start_each`], with the plate at rest in the shape of the transverse amplitudes r_j/h = `w`,
+    /// in the order of the mode list; those not given are 0, and so are all in-plane ones.
+    ///
+    /// # Panics
+    /// If there are more values than bodies or amplitudes.
+    pub fn start_deflected(&self, z: &[f64], v: &[f64], w: &[f64]) -> Point {
         let mut x = vec![0.0; self.layout.len()];
+        assert!(
+            w.len() <= self.layout.transverse,
+            "one amplitude per w term"
+        );
+        x[self.layout.r(0)..][..w.len()].copy_from_slice(w);
         for (i, (&z, scale)) in z.iter().zip(&self.scales.jumpers).enumerate() {
             x[self.layout.z(i)] = z * scale.position / self.scales.length;
         }

@@ -45,6 +45,27 @@ pub struct Found {
     pub attractor: Result<Attractor, Lost>,
     /// Forcing periods run in all.
     pub periods: u64,
+    /// Where the start has arrived; `None` if there is no long-term motion.
+    pub arrival: Option<Arrival>,
+}
+
+impl Found {
+    /// The last state of a motion that is undecided, to go on from.
+    pub(super) fn undecided_at(&self) -> Option<&Point> {
+        let motion = self.attractor.as_ref().ok()?;
+        let arrival = self.arrival.as_ref()?;
+        (motion.kind == Kind::Undecided).then_some(&arrival.point)
+    }
+}
+
+/// Where a start has arrived: what it takes to draw the motion and to go on from it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arrival {
+    /// The last state, at phase 0.
+    pub point: Point,
+    /// The last samples, [z/eta, z'/(eta omega_h)]: `section[body][sample]`. Of a cycle, each of its points
+    /// once; otherwise what was recorded, 256 at most.
+    pub section: Vec<Vec<[f64; 2]>>,
 }
 
 /// Why there is no long-term motion.
@@ -224,6 +245,7 @@ where
                 self.found = Some(Found {
                     attractor: Err(Lost::NoModel(error)),
                     periods: 0,
+                    arrival: None,
                 });
                 return None;
             }
@@ -283,11 +305,18 @@ where
             self.found = Some(Found {
                 attractor: Err(Lost::Ended(end.status)),
                 periods: motion.periods,
+                arrival: None,
             });
         } else if let Some(recording) = motion.recording.take() {
+            let attractor = motion.attractor(&recording);
+            let section = motion.section(attractor.kind, recording.stance.len());
             self.found = Some(Found {
-                attractor: Ok(motion.attractor(&recording)),
+                attractor: Ok(attractor),
                 periods: motion.periods,
+                arrival: Some(Arrival {
+                    point: end.point,
+                    section,
+                }),
             });
         } else {
             motion.recording = Some(Recording::new(&motion.model));
@@ -390,6 +419,20 @@ impl Motion {
             ranges: recording.ranges.clone(),
             rest,
         }
+    }
+
+    /// The samples of the cycle, or of the last `recorded` periods.
+    fn section(&self, kind: Kind, recorded: usize) -> Vec<Vec<[f64; 2]>> {
+        let count = match kind {
+            Kind::Periodic(n) => n as usize,
+            _ => recorded.min(Samples::ROWS),
+        };
+        let bodies = self.model.setup().jumpers.len();
+        let of = |body: usize| {
+            let rows = (0..count).rev().map(|back| self.samples.back(back));
+            rows.map(|row| [row[body], row[bodies + body]]).collect()
+        };
+        (0..bodies).map(of).collect()
     }
 }
 

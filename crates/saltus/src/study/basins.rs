@@ -27,6 +27,8 @@ pub struct Entry {
     pub count: u64,
     /// Number of the first start that led to it.
     pub first: usize,
+    /// Number of the start whose motion came closest to it.
+    pub closest: usize,
     /// Ranges of all motions joined; of a cycle, its own.
     ranges: Vec<(Range, Range)>,
 }
@@ -36,6 +38,15 @@ impl Entry {
     pub fn share(&self, starts: u64) -> f64 {
         self.count as f64 / starts as f64
     }
+
+    /// Whether `motion` is on this attractor.
+    pub(super) fn holds(&self, motion: &Attractor) -> bool {
+        match (motion.kind, self.attractor.kind) {
+            (Kind::Periodic(n), Kind::Periodic(m)) if n == m => same_cycle(motion, &self.attractor),
+            (Kind::NotPeriodic, Kind::NotPeriodic) => same_band(&motion.ranges, &self.ranges),
+            _ => false,
+        }
+    }
 }
 
 impl Catalogue {
@@ -43,34 +54,50 @@ impl Catalogue {
     /// `None` for a motion that is undecided. Numbers depend on the order of the calls, so file motions in
     /// the order of their starts.
     pub fn file(&mut self, start: usize, motion: Attractor) -> Option<usize> {
-        let same = |entry: &Entry| match (motion.kind, entry.attractor.kind) {
-            (Kind::Periodic(n), Kind::Periodic(m)) if n == m => {
-                same_cycle(&motion, &entry.attractor)
-            }
-            (Kind::NotPeriodic, Kind::NotPeriodic) => same_band(&motion.ranges, &entry.ranges),
-            _ => false,
-        };
+        let number = self.file_uncounted(start, motion)?;
+        self.entries[number].count += 1;
+        Some(number)
+    }
+
+    /// As [`Self::file`], for a motion from elsewhere that says nothing about shares.
+    pub(super) fn file_uncounted(&mut self, start: usize, motion: Attractor) -> Option<usize> {
         if motion.kind == Kind::Undecided {
             return None;
         }
-        let Some(number) = self.entries.iter().position(same) else {
+        let known = self.entries.iter().position(|entry| entry.holds(&motion));
+        let Some(number) = known else {
             self.entries.push(Entry {
                 ranges: motion.ranges.clone(),
                 attractor: motion,
-                count: 1,
+                count: 0,
                 first: start,
+                closest: start,
             });
             return Some(self.entries.len() - 1);
         };
         let entry = &mut self.entries[number];
-        entry.count += 1;
         for (all, one) in entry.ranges.iter_mut().zip(&motion.ranges) {
             *all = (hull(all.0, one.0), hull(all.1, one.1));
         }
         if motion.rest < entry.attractor.rest {
             entry.attractor = motion;
+            entry.closest = start;
         }
         Some(number)
+    }
+
+    /// Counts the starts of one entry for another.
+    pub(super) fn count_for(&mut self, number: usize, other: usize) {
+        let count = std::mem::take(&mut self.entries[number].count);
+        let first = self.entries[number].first;
+        let other = &mut self.entries[other];
+        other.count += count;
+        other.first = other.first.min(first);
+    }
+
+    /// The attractors in the order of discovery.
+    pub fn entries(&self) -> &[Entry] {
+        &self.entries
     }
 
     /// The attractors, those with the most starts first, of equals the one found first; and for each
@@ -163,6 +190,7 @@ mod tests {
             entries[0].attractor.rest, 0.0,
             "the closest one stands for all"
         );
+        assert_eq!(entries[0].closest, 1);
     }
 
     #[test]

@@ -98,7 +98,7 @@ pub(crate) struct Samples {
 
 impl Samples {
     /// Four blocks of 56 and one return of the longest period.
-    const ROWS: usize = 256;
+    pub(crate) const ROWS: usize = 256;
 
     /// Of `width` numbers each, in units of eta.
     pub(crate) fn new(width: usize) -> Self {

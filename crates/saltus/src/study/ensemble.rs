@@ -74,6 +74,11 @@ pub enum StudyError {
     /// No exponents.
     #[error(transparent)]
     Exponents(#[from] ExponentError),
+    /// Attractors of an empty plate.
+    #[error(
+        "attractors are told apart by how people move, and nobody is on the plate; it needs a jumper"
+    )]
+    NobodyMoves,
 }
 
 impl From<crate::physics::PhysicsError> for StudyError {

@@ -2,25 +2,36 @@
 
 mod attractor;
 mod basins;
+mod census;
 mod classify;
 mod ensemble;
 mod exponents;
+mod follow;
+mod fraction;
+mod lineages;
 mod map;
+mod matching;
 pub mod paper;
 mod peaks;
 mod recurrence;
 mod settle;
+mod starts;
 mod sweep;
 mod trajectory;
 
-pub use attractor::{Attractor, Found, Kind, Lost, Range, Search, attractors};
+pub use attractor::{Arrival, Attractor, Found, Kind, Lost, Range, Search, attractors};
 pub use basins::{Catalogue, Entry, SAME};
+pub use census::{Census, Counted};
 pub use classify::MAX_PERIOD;
 pub(crate) use ensemble::in_parallel;
 pub use ensemble::{Control, StudyError};
 pub use exponents::{Growth, Measurement, growth, lyapunov};
+pub use follow::{census, follow};
+pub use fraction::Fraction;
+pub use lineages::{Hysteresis, Identity, Lineages, Row, Turn};
 pub use map::{Grid, map};
 pub use recurrence::recurrence;
 pub use settle::{Settled, settle};
+pub use starts::Starts;
 pub use sweep::{Pass, Sweep, SweepRow, sweep, sweep_many};
 pub use trajectory::{History, Trajectory, TrajectorySwitch, simulate};

@@ -137,10 +137,11 @@ pub(super) fn portraits(results: &Results) -> Figure {
 
 fn heading(result: &CaseResult) -> String {
     let case = result.case;
-    let ours = match (result.recurrence, result.exponent) {
-        (Some(n), _) => format!("{n}T"),
-        (None, Some(e)) => format!("λ = {:.3} ± {:.3} per T", e.per_period, e.standard_error),
-        (None, None) => "no period".into(),
+    let exponent = result.verdict.exponent;
+    let (mean, error) = (exponent.per_iterate, exponent.standard_error);
+    let ours = match result.recurrence {
+        Some(n) => format!("{n}T"),
+        None => format!("λ = {mean:.3} ± {error:.3} per T"),
     };
     format!(
         "Ω = {:.1} ω_h, ζ_h = {:.2}: {ours}",

@@ -57,8 +57,9 @@ struct CaseRow {
     paper: &'static str,
     ours: String,
     period: Option<u32>,
-    exponent_per_period: Option<f64>,
-    exponent_standard_error: Option<f64>,
+    exponent_per_period: f64,
+    exponent_standard_error: f64,
+    confidence: f64,
     contact_ratio: f64,
     peak_force_weights: f64,
 }
@@ -188,8 +189,9 @@ impl CaseRow {
             paper: case.paper,
             ours: result.words(),
             period: result.recurrence,
-            exponent_per_period: result.exponent.map(|e| e.per_period),
-            exponent_standard_error: result.exponent.map(|e| e.standard_error),
+            exponent_per_period: result.verdict.exponent.per_iterate,
+            exponent_standard_error: result.verdict.exponent.standard_error,
+            confidence: result.verdict.confidence,
             contact_ratio: result.contact_ratio,
             peak_force_weights: result.peak_force,
         }

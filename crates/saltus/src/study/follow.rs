@@ -1,0 +1,293 @@
+//! All attractors along a parameter, each with a number that stays.
+//!
+//! At each value, starts from a box find what they find. Then each attractor is carried to both neighbours: its
+//! state is a start there. What is new there is carried on in its turn, until nothing new is met. So an
+//! attractor that a start met at one value is looked for at all values up to where it ends, and those that are
+//! the same are known by the dynamics and not by their looks: "seeded continuation" [DRW 2023].
+//!
+//! What has not surely settled is first run on in place. A slow transient that looked like a band or a longer
+//! cycle becomes what it leads to, and its starts count for that. A start or a carried motion that is undecided, say
+//! at a period doubling, is run on likewise; a carried one that stays undecided goes to the next value as it is.
+//!
+//! `matching` says when two attractors are the same, and `lineages` what follows.
+
+use std::collections::BTreeMap;
+
+use super::census::{Census, Tally};
+use super::lineages::{Lineages, Row};
+use super::matching::{Links, Node, Way};
+use super::{Control, Found, Search, Starts, StudyError, attractors};
+use crate::model::{Model, ModelError};
+use saltus_hybrid::Point;
+
+/// The attractors of `model`, as the starts lead to them.
+///
+/// # Errors
+/// [`StudyError::NobodyMoves`] for a plate without people, [`StudyError::Integrate`] for options out of range
+/// or when stopped.
+pub fn census(
+    model: &Model,
+    starts: &Starts,
+    search: &Search,
+    control: &Control,
+) -> Result<Census, StudyError> {
+    let found = follow(&[0.0], |_| Ok(model.clone()), starts, search, control)?;
+    let mut rows = found.rows.into_iter().map(|row| row.census);
+    Ok(rows.next().unwrap_or_else(|| Ok(Census::default()))?)
+}
+
+/// The attractors at each of `values` (ascending), matched from value to value.
+///
+/// A value without a model, or whose model the stepper cannot take, is a row that says so; motions are carried
+/// across it. Results do not depend on the threads, to the bit.
+///
+/// # Errors
+/// As [`census`].
+pub fn follow<F>(
+    values: &[f64],
+    model_at: F,
+    starts: &Starts,
+    search: &Search,
+    control: &Control,
+) -> Result<Lineages, StudyError>
+where
+    F: Fn(f64) -> Result<Model, ModelError>,
+{
+    let mut places = Vec::with_capacity(values.len());
+    for &value in values {
+        let stable = |model: Model| model.check_step(&control.options).map(|()| model);
+        let model = model_at(value).and_then(stable);
+        if model.as_ref().is_ok_and(|m| m.setup().jumpers.is_empty()) {
+            return Err(StudyError::NobodyMoves);
+        }
+        let tally = Tally::default();
+        places.push(Place {
+            value,
+            model,
+            tally,
+        });
+    }
+    let mut journey = Journey {
+        places,
+        became: BTreeMap::new(),
+        links: Links::new(),
+        search,
+        control,
+    };
+    journey.count(starts)?;
+    let unfinished = journey.carry_all()?;
+    Ok(journey.lineages(unfinished))
+}
+
+/// Searches, one after the other, by which an attractor is confirmed and an undecided motion given up.
+const PATIENCE: usize = 8;
+
+/// One value.
+struct Place {
+    value: f64,
+    model: Result<Model, ModelError>,
+    tally: Tally,
+}
+
+struct Journey<'a> {
+    places: Vec<Place>,
+    /// What transients became that looked like attractors; without cycles.
+    became: BTreeMap<Node, Node>,
+    links: Links,
+    search: &'a Search,
+    control: &'a Control,
+}
+
+/// A motion to be run at a value.
+#[derive(Clone)]
+struct Errand {
+    /// The attractor it was on.
+    from: Node,
+    /// `None` for one that is to be confirmed in place.
+    way: Option<Way>,
+    /// Its last state, the value at which it was there, and the value at which to go on.
+    point: Point,
+    at: usize,
+    to: usize,
+    /// Searches at that value so far.
+    tries: usize,
+}
+
+impl Journey<'_> {
+    /// Runs all starts at all values, those that stay undecided with patience.
+    fn count(&mut self, starts: &Starts) -> Result<(), StudyError> {
+        let at: Vec<usize> = (0..self.places.len())
+            .filter(|&at| self.places[at].model.is_ok())
+            .collect();
+        let model_of = |number: usize| self.places[at[number / starts.count]].model.clone();
+        let start_at = |number: usize| {
+            let model = model_of(number)?;
+            let point = starts.point(&model, number % starts.count);
+            Ok((model, point))
+        };
+        let mut found = self.run(at.len() * starts.count, start_at)?;
+        for _ in 1..PATIENCE {
+            let points = found.iter().enumerate();
+            let open: Vec<(usize, Point)> = points
+                .filter_map(|(number, found)| Some((number, found.undecided_at()?.clone())))
+                .collect();
+            let go_on = |i: usize| Ok((model_of(open[i].0)?, open[i].1.clone()));
+            for (i, later) in self.run(open.len(), go_on)?.into_iter().enumerate() {
+                found[open[i].0] = later;
+            }
+        }
+        for (number, found) in found.into_iter().enumerate() {
+            self.places[at[number / starts.count]].tally.count(found);
+        }
+        Ok(())
+    }
+
+    /// What starts 0 to `count` - 1 lead to, in their order.
+    fn run(
+        &self,
+        count: usize,
+        start_at: impl Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
+    ) -> Result<Vec<Found>, StudyError> {
+        let mut all: Vec<Option<Found>> = vec![None; count];
+        let keep = |number: usize, found| {
+            all[number] = Some(found);
+            Ok::<(), StudyError>(())
+        };
+        attractors(0..count, start_at, self.search, self.control, keep)?;
+        Ok(all.into_iter().flatten().collect())
+    }
+
+    /// Carries every attractor both ways and gives the number of motions that were still on their way after rounds
+    /// enough for twice the length of the range; a model has few attractors, so it ends long before.
+    fn carry_all(&mut self) -> Result<usize, StudyError> {
+        let known =
+            |(at, place): (usize, &Place)| (0..place.tally.len()).map(move |number| (at, number));
+        let nodes = self.places.iter().enumerate().flat_map(known);
+        let mut errands: Vec<Errand> = nodes.flat_map(|node| self.depart(node)).collect();
+        for _ in 0..2 * PATIENCE * self.places.len() {
+            if errands.is_empty() {
+                break;
+            }
+            let start_at = |number: usize| {
+                let errand: &Errand = &errands[number];
+                let there = self.places[errand.to].model.clone()?;
+                let here = self.places[errand.at].model.clone()?;
+                let point = there.carry(&here, &errand.point);
+                Ok((there, point))
+            };
+            let found = self.run(errands.len(), start_at)?;
+            let ended = std::mem::take(&mut errands).into_iter().zip(found);
+            for (errand, found) in ended {
+                errands.extend(self.arrive(errand, found));
+            }
+        }
+        Ok(errands.len())
+    }
+
+    /// What is to be done for a new attractor: both ways, or first to see whether it is one.
+    fn depart(&self, node: Node) -> Vec<Errand> {
+        let (at, number) = node;
+        let tally = &self.places[at].tally;
+        let errand = Errand {
+            from: node,
+            way: None,
+            point: tally.point(number).clone(),
+            at,
+            to: at,
+            tries: 0,
+        };
+        if tally.is_sure(number) {
+            return self.both_ways(&errand);
+        }
+        vec![errand]
+    }
+
+    fn both_ways(&self, errand: &Errand) -> Vec<Errand> {
+        let ways = [Way::Up, Way::Down].map(|way| Errand {
+            way: Some(way),
+            ..errand.clone()
+        });
+        ways.into_iter()
+            .filter_map(|errand| self.further(errand))
+            .collect()
+    }
+
+    /// To the next value with a model of the same make, if there is one.
+    fn further(&self, errand: Errand) -> Option<Errand> {
+        let layout = |at: usize| Some(self.places[at].model.as_ref().ok()?.layout);
+        let at = errand.to;
+        let mut beyond = errand.way?.beyond(at, self.places.len());
+        let to = beyond.find(|&to| layout(to) == layout(at))?;
+        Some(Errand {
+            at,
+            to,
+            tries: 0,
+            ..errand
+        })
+    }
+
+    /// Notes where an errand has led, and what is to be done next.
+    fn arrive(&mut self, mut errand: Errand, found: Found) -> Vec<Errand> {
+        let tally = &mut self.places[errand.to].tally;
+        let known = tally.len();
+        let ended_early = found.arrival.is_none();
+        if let Some(arrival) = &found.arrival {
+            errand.point.clone_from(&arrival.point);
+        }
+        let number = tally.meet(found);
+        errand.at = errand.to;
+        errand.tries += 1;
+        let node = number.map(|number| (errand.to, number));
+        let mut next = match node {
+            Some(node) if node.1 == known => self.depart(node),
+            _ => Vec::new(),
+        };
+        let again = errand.tries < PATIENCE && !ended_early;
+        match (errand.way, node) {
+            (Some(way), Some(node)) => {
+                self.links.insert((errand.from, way), node);
+            }
+            (Some(_), None) if again => next.push(errand),
+            (Some(_), None) if ended_early => {}
+            (Some(_), None) => next.extend(self.further(errand)),
+            (None, Some(node)) if self.root(node) != errand.from => {
+                self.became.insert(errand.from, node);
+            }
+            (None, _) if again && !self.places[errand.at].tally.is_sure(errand.from.1) => {
+                next.push(errand);
+            }
+            (None, _) => next.extend(self.both_ways(&errand)),
+        }
+        next
+    }
+
+    /// The attractor behind one that may be a transient.
+    fn root(&self, mut node: Node) -> Node {
+        while let Some(&next) = self.became.get(&node) {
+            node = next;
+        }
+        node
+    }
+
+    /// Everything in the order of the shares.
+    fn lineages(mut self, unfinished: usize) -> Lineages {
+        let (mut rows, mut ranks) = (Vec::new(), Vec::new());
+        let places = std::mem::take(&mut self.places);
+        for (at, place) in places.into_iter().enumerate() {
+            let roots = (0..place.tally.len()).map(|number| self.root((at, number)).1);
+            let roots: Vec<usize> = roots.collect();
+            let (census, rank) = place.tally.ranked(&roots);
+            ranks.push(rank);
+            rows.push(Row {
+                value: place.value,
+                census: place.model.map(|_| census),
+            });
+        }
+        let place = |&(at, number): &Node| (at, ranks[at][number]);
+        let links = self
+            .links
+            .iter()
+            .map(|((from, way), to)| ((place(from), *way), place(to)));
+        Lineages::new(rows, &links.collect(), unfinished)
+    }
+}
