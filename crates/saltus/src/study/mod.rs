@@ -11,6 +11,7 @@ mod fraction;
 mod lineages;
 mod map;
 mod matching;
+mod orbits;
 pub mod paper;
 mod peaks;
 mod recurrence;
@@ -30,6 +31,10 @@ pub use follow::{census, follow};
 pub use fraction::Fraction;
 pub use lineages::{Hysteresis, Identity, Lineages, Row, Turn};
 pub use map::{Grid, map};
+pub use orbits::{
+    ORBIT_METHOD, OrbitError, OrbitSearch, Portrait, orbit, orbit_of, place, point, portrait,
+    sequence, stroboscopic,
+};
 pub use recurrence::recurrence;
 pub use settle::{Settled, settle};
 pub use starts::Starts;
