@@ -4,7 +4,8 @@
 //! tangent t the corrector solves the equations of the orbit with t (u - u_predicted) = 0, so it passes
 //! folds. The parameter counts in units of its range, divided by [`ContinuationOptions::weight`].
 
-use crate::linear::{self, minus, norm, unit};
+use crate::linear::{self, minus, norm, scaled, unit};
+use crate::orbit::check;
 use crate::shooting::{Change, Free, Guess, Pass, Shooting};
 use crate::{Family, Lost, Matrix, NewtonOptions, NotFound, Orbit, Special};
 
@@ -84,10 +85,10 @@ impl Point {
 
     /// The same point of the branch followed the other way.
     pub(crate) fn reversed(mut self) -> Self {
-        let turn = |all: &mut [f64]| all.iter_mut().for_each(|value| *value = -*value);
-        turn(&mut self.tangent);
-        turn(&mut self.spread.free);
-        self.spread.x.iter_mut().for_each(|x| turn(x));
+        let turned = |all: &[f64]| scaled(all, -1.0);
+        self.tangent = turned(&self.tangent);
+        self.spread.free = turned(&self.spread.free);
+        self.spread.x = self.spread.x.iter().map(|x| turned(x)).collect();
         self.side = -self.side;
         self
     }
@@ -216,6 +217,7 @@ impl<'a, F: Family + ?Sized> Path<'a, F> {
             from,
             to,
         } = *along;
+        check(family, &start.places)?;
         let count = start.parameters.len();
         let value = *start
             .parameters

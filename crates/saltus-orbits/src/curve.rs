@@ -7,7 +7,7 @@
 //! method, lifted to the surface by the corrector.
 
 use crate::continuation::{Along, ContinuationError, ContinuationOptions, End};
-use crate::linear::{self, dot, minus, norm, plus, unit};
+use crate::linear::{self, dot, minus, norm, plus, scaled, unit};
 use crate::shooting::{Change, Free, Pass, Shooting};
 use crate::special::{SpecialKind, critical_pair};
 use crate::{Family, Lost, Multiplier, NotFound, Orbit, Special, events};
@@ -141,7 +141,7 @@ struct Station {
 
 impl Station {
     fn turned(mut self) -> Self {
-        self.frame[0].iter_mut().for_each(|d| *d = -*d);
+        self.frame[0] = scaled(&self.frame[0], -1.0);
         self
     }
 }
@@ -188,8 +188,7 @@ impl<F: Family + ?Sized> Surface<'_, F> {
         along: &[Vec<f64>; 2],
         offsets: [f64; 2],
     ) -> Result<Spot, NotFound> {
-        let zero = vec![0.0; along[0].len()];
-        let way = plus(&plus(&zero, offsets[0], &along[0]), offsets[1], &along[1]);
+        let way = plus(&scaled(&along[0], offsets[0]), offsets[1], &along[1]);
         let change: Change = base.pass.spread(&way).ok_or_else(|| NotFound::Singular {
             residual: base.pass.residual,
             places: base.orbit.places.clone(),
@@ -215,13 +214,10 @@ impl<F: Family + ?Sized> Surface<'_, F> {
         };
         let gradient = [slope([1.0, 0.0])?, slope([0.0, 1.0])?];
         let steep = norm(&gradient);
-        let mix = |a: f64, b: f64| {
-            let scaled = plus(&vec![0.0; plane[0].len()], a / steep, &plane[0]);
-            plus(&scaled, b / steep, &plane[1])
-        };
+        let mix = |a: f64, b: f64| plus(&scaled(&plane[0], a / steep), b / steep, &plane[1]);
         let mut along = mix(-gradient[1], gradient[0]);
         if ahead.is_some_and(|ahead| dot(ahead, &along) < 0.0) {
-            along.iter_mut().for_each(|d| *d = -*d);
+            along = scaled(&along, -1.0);
         }
         let frame = [along, mix(gradient[0], gradient[1])];
         (steep > 0.0 && steep.is_finite()).then_some(Station {

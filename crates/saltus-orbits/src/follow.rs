@@ -3,7 +3,7 @@
 use crate::continuation::{
     Along, Branch, ContinuationError, ContinuationOptions, End, Path, Point,
 };
-use crate::linear::{dot, minus, norm, unit};
+use crate::linear::{dot, minus, norm, scaled, unit};
 use crate::special::{Special, SpecialKind};
 use crate::{Family, Lost, Multiplier, NotFound, Orbit, events};
 
@@ -92,7 +92,7 @@ impl Branch {
     fn after(self, back: Branch) -> Self {
         let shift = back.points.len() - 1;
         let turned = |mut special: Special| {
-            special.after = shift - 1 - special.after;
+            special.near = shift - special.near;
             special.outside.reverse();
             special.tangent.iter_mut().for_each(|t| *t = -*t);
             special
@@ -103,7 +103,7 @@ impl Branch {
         let mut specials: Vec<Special> = back.specials.into_iter().map(turned).collect();
         specials.reverse();
         specials.extend(self.specials.into_iter().map(|mut special| {
-            special.after += shift;
+            special.near += shift;
             special
         }));
         let [_, first] = back.ends;
@@ -257,20 +257,30 @@ impl<F: Family + ?Sized> Path<'_, F> {
         (point.parameter >= high && pace > 0.0) || (point.parameter <= low && pace < 0.0)
     }
 
+    fn inside(&self, parameter: f64) -> f64 {
+        parameter.clamp(self.range[0], self.range[1])
+    }
+
+    /// The point `step` ahead, or that at the end of the range before it.
     fn next(&self, last: &Point, step: f64) -> Result<Point, Obstacle> {
-        let guess = last.orbit.guess().moved(&self.free, step, &last.spread);
-        let predicted = {
-            let mut u = guess.places[0].x.clone();
-            u.push(guess.parameters[self.free[0].index] / self.free[0].unit);
-            u
+        let ahead = last.parameter + step * last.pace() * self.free[0].unit;
+        let mut point = if self.inside(ahead) == ahead {
+            let guess = last.orbit.guess().moved(&self.free, step, &last.spread);
+            let point = self.solve(&guess, &last.tangent, &last.tangent)?;
+            let aside = minus(&self.apart(last, &point), &scaled(&last.tangent, step));
+            if norm(&aside) > NEAR * step {
+                return Err(Obstacle::Bend);
+            }
+            point
+        } else {
+            let edge = self.inside(ahead);
+            let step = step * (edge - last.parameter) / (ahead - last.parameter);
+            let mut guess = last.orbit.guess().moved(&self.free, step, &last.spread);
+            guess.parameters[self.free[0].index] = edge;
+            self.solve(&guess, &self.upwards(), &last.tangent)?
         };
-        let mut point = self.solve(&guess, &last.tangent, &last.tangent)?;
-        if norm(&minus(&self.coordinates(&point.orbit), &predicted)) > NEAR * step {
-            return Err(Obstacle::Bend);
-        }
-        let [low, high] = self.range;
-        if !(low..=high).contains(&point.parameter) {
-            let edge = point.parameter.clamp(low, high);
+        let edge = self.inside(point.parameter);
+        if edge != point.parameter {
             let part = (edge - last.parameter) / (point.parameter - last.parameter);
             let mut guess = self.mixed(last, &point, part);
             guess.parameters[self.free[0].index] = edge;
@@ -366,7 +376,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
             kind: SpecialKind::Grazing { unit },
             parameter: last.parameter + ahead * last.pace() * self.free[0].unit,
             orbit: last.orbit.clone(),
-            after: points.len() - 1,
+            near: points.len() - 1,
             outside,
             remark: Some(remark.to_owned()),
             tangent: last.tangent.clone(),

@@ -28,11 +28,11 @@ impl<F: Family + ?Sized> Path<'_, F> {
         &self,
         a: &Point,
         b: &Point,
-        after: usize,
+        near: usize,
     ) -> Result<Vec<Special>, NotFound> {
         let (mut found, mut from) = (Vec::new(), a.clone());
         while found.len() < MOST && !changes(&from, b).is_empty() {
-            let (special, next) = self.first(from, b.clone(), after)?;
+            let (special, next) = self.first(from, b.clone(), near)?;
             found.extend(special);
             from = next;
         }
@@ -44,7 +44,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
         &self,
         mut a: Point,
         mut b: Point,
-        after: usize,
+        near: usize,
     ) -> Result<(Option<Special>, Point), NotFound> {
         let mut aim = Aim::default();
         for round in 0..ROUNDS {
@@ -61,8 +61,8 @@ impl<F: Family + ?Sized> Path<'_, F> {
                 [Test::BranchPoint] | [Test::BranchPoint, Test::Fold]
             );
             if crossing && length <= 4.0 * ASIDE * size {
-                let special = self.crossing(&a, &b, ASIDE * size, after);
-                return Ok((special.or_else(|| self.special(&a, &b, after)), b));
+                let special = self.crossing(&a, &b, ASIDE * size, near);
+                return Ok((special.or_else(|| self.special(&a, &b, near)), b));
             }
             if zero || length <= NARROW * size {
                 break;
@@ -100,11 +100,11 @@ impl<F: Family + ?Sized> Path<'_, F> {
                 aim.moved(1);
             }
         }
-        Ok((self.special(&a, &b, after), b))
+        Ok((self.special(&a, &b, near), b))
     }
 
     /// The special point between two points that are next to each other.
-    fn special(&self, a: &Point, b: &Point, after: usize) -> Option<Special> {
+    fn special(&self, a: &Point, b: &Point, near: usize) -> Option<Special> {
         let test = *changes(a, b).first()?;
         let best = match (test.value(a), test.value(b)) {
             (Some(before), Some(behind)) if behind.abs() < before.abs() => b,
@@ -119,7 +119,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
             kind: test.kind(&best.orbit, &other.orbit)?,
             parameter: best.parameter,
             orbit: best.orbit.clone(),
-            after,
+            near,
             outside: [a.outside, b.outside],
             remark: jumps.then(|| {
                 "stability changes here without a multiplier on the unit circle".to_owned()
@@ -130,7 +130,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
 
     /// The branch point between two points: where the cubic through four determinants is zero, on the cubics
     /// through the four orbits.
-    fn crossing(&self, a: &Point, b: &Point, aside: f64, after: usize) -> Option<Special> {
+    fn crossing(&self, a: &Point, b: &Point, aside: f64, near: usize) -> Option<Special> {
         let length = self.distance(a, b);
         let middle = length * a.side / (a.side - b.side);
         let at = [-2.0, -1.0, 1.0, 2.0].map(|times| middle + times * aside);
@@ -171,7 +171,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
             kind: SpecialKind::BranchPoint,
             parameter,
             orbit,
-            after,
+            near,
             outside: [a.outside, b.outside],
             remark: None,
             tangent: linear::unit(&self.apart(&points[1], &points[2])),

@@ -214,7 +214,8 @@ pub fn find_orbit<F: Family + ?Sized>(
     }
 }
 
-fn check<F: Family + ?Sized>(family: &F, start: &[Place]) -> Result<(), NotFound> {
+/// Whether Newton's method can begin at a start.
+pub(crate) fn check<F: Family + ?Sized>(family: &F, start: &[Place]) -> Result<(), NotFound> {
     let dimension = family.dimension();
     let bad = |place: &Place| place.x.len() != dimension || place.x.iter().any(|x| !x.is_finite());
     match start.iter().position(bad) {

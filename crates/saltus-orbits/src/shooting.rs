@@ -197,18 +197,22 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
         for iteration in 0..=self.newton.iterations {
             pass.iterations = iteration;
             let tolerance = self.newton.tolerance * pass.scale();
-            if pass.residual <= tolerance && pass.modes_agree() {
+            let agree = pass.modes_agree();
+            if agree && pass.residual <= tolerance {
                 return Ok(pass);
             }
             if iteration == self.newton.iterations {
                 break;
             }
-            pass = match self.better(&pass, rows)? {
-                Some(next) => next,
-                None if pass.residual <= STAGNATION * tolerance && pass.modes_agree() => {
-                    return Ok(pass);
+            pass = if agree {
+                match self.better(&pass, rows)? {
+                    Some(next) => next,
+                    None if pass.residual <= STAGNATION * tolerance => return Ok(pass),
+                    None => break,
                 }
-                None => break,
+            } else {
+                // Gaps with wrong modes say nothing about the state.
+                self.pass(&pass.guess()).map_err(lost(&pass))?
             };
         }
         Err(NotFound::NotConverged {
@@ -226,30 +230,20 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
         })?;
         let length = step.x.iter().map(|x| size(x)).fold(0.0, f64::max);
         let mut part = (pass.scale() / length).min(1.0);
-        let mut lost = None;
+        let mut reason = None;
         for _ in 0..=HALVINGS {
             match self.pass(&pass.guess().moved(self.free, part, &step)) {
                 // New modes are another set of equations: their gaps need not be smaller at once.
-                Ok(next) if next.residual < pass.residual || !pass.modes_agree() => {
+                Ok(next) if next.residual < pass.residual || !next.modes_agree() => {
                     return Ok(Some(next));
                 }
-                Ok(_) => lost = None,
-                Err(Lost::Interrupted) => {
-                    lost = Some(Lost::Interrupted);
-                    break;
-                }
-                Err(reason) => lost = Some(reason),
+                Ok(_) => reason = None,
+                Err(stop @ Lost::Interrupted) => return Err(lost(pass)(stop)),
+                Err(other) => reason = Some(other),
             }
             part /= 2.0;
         }
-        match lost {
-            Some(reason) => Err(NotFound::Lost {
-                reason,
-                residual: pass.residual,
-                places: pass.places.clone(),
-            }),
-            None => Ok(None),
-        }
+        reason.map_or(Ok(None), |reason| Err(lost(pass)(reason)))
     }
 
     /// One way round: all segments side by side, one call per place within a segment.
@@ -332,6 +326,15 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
             all.push((i, (image, columns)));
         }
         Ok(all)
+    }
+}
+
+/// Nothing beyond a pass.
+fn lost(pass: &Pass) -> impl Fn(Lost) -> NotFound {
+    |reason| NotFound::Lost {
+        reason,
+        residual: pass.residual,
+        places: pass.places.clone(),
     }
 }
 

@@ -8,6 +8,7 @@ use saltus_orbits::{
     NewtonOptions, Orbit, Place, Special, SpecialKind, branches, find_orbit, follow, follow_both,
 };
 use std::f64::consts::{FRAC_PI_3, PI, TAU};
+use std::sync::atomic::Ordering;
 
 fn orbit(family: &impl Family, parameters: &[f64], start: &[&[f64]]) -> Orbit {
     let start: Vec<Place> = start.iter().map(|x| at(x)).collect();
@@ -85,6 +86,16 @@ fn fixed_points_of_henon_fold_and_double_where_the_formulas_say() {
     assert_eq!(found.len(), 2);
     assert!((found[0].1 + square / 4.0).abs() < 1e-10 && found[0].0 == "LP");
     assert!((found[1].1 - 0.75 * square).abs() < 1e-9 && found[1].0 == "PD");
+    // A run can be begun again at a special point, even at the fold.
+    let fold = branch.specials.iter().find(|s| s.label == "LP1").unwrap();
+    let again = both(&map, &fold.orbit, &along(0, -1.0, 1.0));
+    assert!(
+        again
+            .specials
+            .iter()
+            .any(|s| s.kind == SpecialKind::PeriodDoubling)
+    );
+    assert_eq!(again.ends, [End::RangeEnd, End::RangeEnd]);
 }
 
 #[test]
@@ -280,4 +291,18 @@ fn a_bubble_of_period_two_is_followed_once() {
     assert_eq!(all.len(), 2);
     assert_eq!(all[1].branch.ends[1], End::Halved);
     assert_specials(&all[1].branch, &[("HP", root)]);
+}
+
+#[test]
+fn a_point_of_a_branch_costs_few_calls() {
+    let map = henon();
+    let start = orbit(&map, &[0.0, 0.3], &[&[0.0, 0.0]]);
+    let before = map.calls.load(Ordering::Relaxed);
+    let branch = both(&map, &start, &along(0, -0.1, 0.3));
+    let calls = map.calls.load(Ordering::Relaxed) - before;
+    // The prediction and two corrections.
+    assert!(
+        branch.specials.is_empty() && calls <= 3 * branch.points.len() + 2,
+        "{calls}"
+    );
 }

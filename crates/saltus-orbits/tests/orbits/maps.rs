@@ -199,3 +199,70 @@ fn visit(x: f64, to: &[f64], derivative: Matrix) -> Result<Image, Lost> {
         touches: if there { Vec::new() } else { vec![touch] },
     })
 }
+
+/// x -> a x + rho for x < 0, a x + jump + sqrt x + rho beyond, parameters rho, a, jump: x > 0 is a visit.
+pub(crate) struct Root;
+
+impl Family for Root {
+    fn dimension(&self) -> usize {
+        1
+    }
+
+    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
+        let image = |shot: &Shot<'_>| {
+            let [rho, a, jump] = shot.parameters[..] else {
+                return Err(Lost::NoMap("three parameters".into()));
+            };
+            let x = shot.start.x[0];
+            let (root, slope) = match x {
+                0.0.. => (jump + x.sqrt(), 0.5 / x.max(1e-300).sqrt()),
+                _ => (0.0, 0.0),
+            };
+            visit(
+                x,
+                &[a * x + root + rho],
+                Matrix::from_fn(1, 1, |_, _| a + slope),
+            )
+        };
+        shots.iter().map(image).collect()
+    }
+}
+
+/// x -> x/2 + p, parameter p. Unit 0 is in mode 1 from the phase 0.3 + p to 0.6 + p, unit 1 from 0.75 to
+/// 0.85, whatever x. A start in another mode than the phase has leads elsewhere.
+pub(crate) struct Clock;
+
+impl Family for Clock {
+    fn dimension(&self) -> usize {
+        1
+    }
+
+    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
+        let image = |shot: &Shot<'_>| {
+            let (x, p) = (shot.start.x[0], shot.parameters[0]);
+            let phases = [(0, 0, 0.3 + p), (0, 1, 0.6 + p), (1, 0, 0.75), (1, 1, 0.85)];
+            let mut crossings: Vec<Crossing> = phases
+                .iter()
+                .map(|&(unit, from, phase)| Crossing {
+                    unit,
+                    from,
+                    to: 1 - from,
+                    at: 1.0 - (1.0_f64 - phase).rem_euclid(1.0),
+                })
+                .collect();
+            crossings.sort_by(|a, b| a.at.total_cmp(&b.at));
+            let modes = vec![usize::from((0.4..0.7).contains(&p)), 0];
+            let wrong = if shot.start.modes == modes { 0.0 } else { 0.1 };
+            Ok(Image {
+                place: Place {
+                    modes,
+                    x: vec![0.5 * x + p + wrong],
+                },
+                derivative: Some(Matrix::from_fn(1, 1, |_, _| 0.5)),
+                crossings,
+                touches: Vec::new(),
+            })
+        };
+        shots.iter().map(image).collect()
+    }
+}
