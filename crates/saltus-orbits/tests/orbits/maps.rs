@@ -1,6 +1,7 @@
 //! Maps with known answers.
 
 use saltus_orbits::{Crossing, Family, Image, Lost, Matrix, Place, Shot, Touch};
+use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A map given by a formula for its image and the rows of its derivative.
@@ -99,18 +100,26 @@ pub(crate) fn circle() -> Smooth<1> {
     Smooth::new(|p, [x]| ([x + 0.1 * (1.0 - x * x - p[0] * p[0])], [[1.0 - 0.2 * x]]))
 }
 
-/// The high-bounce map of a ball on a table that shakes: phase and speed, parameters gamma and e.
-/// phase' = phase + v, v' = e v + gamma (1 + e) cos(phase') (Holmes 1982). The phase is taken less 2 pi,
-/// so one bounce per period is a fixed point.
+/// A ball that bounces on a table at height gamma sin t, from one impact to the next: phase t and speed w after
+/// the impact, parameters gamma (acceleration of the table over gravity) and e. It flies for tau with
+/// gamma sin t + w tau - tau^2/2 = gamma sin(t + tau), and w' = (1 + e) gamma cos(t + tau) - e (w - tau). The
+/// phase is taken less 2 pi, so one impact per period is a fixed point.
 pub(crate) fn bouncing_ball() -> Smooth<2> {
-    Smooth::new(|p, [phase, v]| {
+    Smooth::new(|p, [t, w]| {
         let (gamma, e) = (p[0], p[1]);
-        let next = phase + v - std::f64::consts::TAU;
-        let (sin, cos) = next.sin_cos();
-        let kick = -gamma * (1.0 + e) * sin;
+        let mut tau = 2.0 * w;
+        let closing = |tau: f64| w - tau - gamma * (t + tau).cos();
+        for _ in 0..30 {
+            let gap = gamma * t.sin() + w * tau - tau * tau / 2.0 - gamma * (t + tau).sin();
+            tau -= gap / closing(tau);
+        }
+        let (sin, cos) = (t + tau).sin_cos();
+        let by_t = 1.0 - (gamma * t.cos() - w + tau + closing(tau)) / closing(tau);
+        let by_w = -tau / closing(tau);
+        let kick = e - (1.0 + e) * gamma * sin;
         (
-            [next, e * v + gamma * (1.0 + e) * cos],
-            [[1.0, 1.0], [kick, e + kick]],
+            [t + tau - TAU, (1.0 + e) * gamma * cos - e * (w - tau)],
+            [[by_t, by_w], [kick * by_t - e, kick * by_w - e]],
         )
     })
 }
