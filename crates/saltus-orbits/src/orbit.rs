@@ -180,6 +180,16 @@ pub enum NotFound {
     },
 }
 
+impl NotFound {
+    /// Whether the work was stopped from outside.
+    pub(crate) fn is_stop(&self) -> bool {
+        let Self::Lost { reason, .. } = self else {
+            return false;
+        };
+        *reason == Lost::Interrupted
+    }
+}
+
 /// The periodic orbit near `start`, which has one place per iterate.
 ///
 /// Newton's method with multiple shooting; a step is cut as long as it makes the residual grow. The

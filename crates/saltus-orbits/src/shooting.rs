@@ -321,7 +321,7 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
             for _ in self.free {
                 let [below, above] =
                     [answers.next(), answers.next()].map(|answer| answer.unwrap_or_else(missing));
-                columns.push(difference(&image, below, above)?);
+                columns.push(difference(&image, &below, &above)?);
             }
             all.push((i, (image, columns)));
         }
@@ -361,10 +361,10 @@ fn checked(answer: Option<Result<Image, Lost>>, n: usize) -> Result<Image, Lost>
 /// dP per unit of a parameter: central, or to one side where the map ends.
 fn difference(
     image: &Image,
-    below: Result<Image, Lost>,
-    above: Result<Image, Lost>,
+    below: &Result<Image, Lost>,
+    above: &Result<Image, Lost>,
 ) -> Result<Vec<f64>, Lost> {
-    let (below, above, width) = match (&below, &above) {
+    let (below, above, width) = match (below, above) {
         (Err(Lost::Interrupted), _) | (_, Err(Lost::Interrupted)) => return Err(Lost::Interrupted),
         (Ok(below), Ok(above)) => (below, above, 2.0),
         (Ok(below), Err(_)) => (below, image, 1.0),

@@ -1,7 +1,8 @@
 //! From a special point to the other branches that meet there.
 
-use crate::continuation::{Path, Point};
+use crate::continuation::Point;
 use crate::linear::{self, dot, plus, scaled, unit};
+use crate::path::Path;
 use crate::shooting::Guess;
 use crate::{Family, Orbit, Special};
 
