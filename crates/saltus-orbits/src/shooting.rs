@@ -70,14 +70,17 @@ pub(crate) struct Change {
     pub(crate) free: Vec<f64>,
 }
 
+/// Derivatives of an image by the free parameters.
+type Columns = Vec<Vec<f64>>;
+
 /// One pass around a guess.
 #[derive(Clone, Debug)]
 pub(crate) struct Pass {
     pub(crate) parameters: Vec<f64>,
     pub(crate) places: Vec<Place>,
     pub(crate) images: Vec<Image>,
-    /// C_i, one column for each free parameter.
-    columns: Vec<Vec<Vec<f64>>>,
+    /// C_i.
+    columns: Vec<Columns>,
     /// g_i.
     gaps: Vec<Vec<f64>>,
     /// Largest gap.
@@ -92,7 +95,7 @@ impl Pass {
     }
 
     /// The derivative of the whole way round at the first place, M, and that by the free parameters.
-    pub(crate) fn around(&self) -> Option<(Matrix, Vec<Vec<f64>>)> {
+    pub(crate) fn around(&self) -> Option<(Matrix, Columns)> {
         let n = self.places[0].x.len();
         let mut m = Matrix::identity(n, n);
         let mut columns = vec![vec![0.0; n]; self.columns[0].len()];
@@ -259,7 +262,8 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
                 .filter(|&segment| first(segment) + depth < first(segment + 1))
                 .map(|segment| first(segment) + depth)
                 .collect();
-            for (i, (image, by)) in self.shoot(&guess.parameters, &places, &under_way)? {
+            let answers = self.shoot(&guess.parameters, &places, &under_way)?;
+            for (i, (image, by)) in under_way.into_iter().zip(answers) {
                 if (0..segments).all(|segment| first(segment) != i + 1) && i + 1 < n {
                     places[i + 1] = image.place.clone();
                 }
@@ -283,13 +287,12 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
     }
 
     /// Image of the places that `which` names, with the derivatives by state and free parameters.
-    #[allow(clippy::type_complexity)]
     fn shoot(
         &self,
         parameters: &[f64],
         places: &[Place],
         which: &[usize],
-    ) -> Result<Vec<(usize, (Image, Vec<Vec<f64>>))>, Lost> {
+    ) -> Result<Vec<(Image, Columns)>, Lost> {
         let offset = |free: &Free, sign: f64| {
             let mut moved = parameters.to_vec();
             moved[free.index] += sign * DIFFERENCE * free.unit;
@@ -323,7 +326,7 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
                     [answers.next(), answers.next()].map(|answer| answer.unwrap_or_else(missing));
                 columns.push(difference(&image, &below, &above)?);
             }
-            all.push((i, (image, columns)));
+            all.push((image, columns));
         }
         Ok(all)
     }

@@ -4,23 +4,29 @@ use saltus_orbits::{Crossing, Family, Image, Lost, Matrix, Place, Shot, Touch};
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+/// Image and rows of the derivative, from parameters and state.
+type Formula<const N: usize> = fn(&[f64], [f64; N]) -> ([f64; N], [[f64; N]; N]);
+
 /// A map given by a formula for its image and the rows of its derivative.
 pub(crate) struct Smooth<const N: usize> {
-    pub(crate) map: fn(&[f64], [f64; N]) -> ([f64; N], [[f64; N]; N]),
+    pub(crate) map: Formula<N>,
     /// Parameter 0 ends here.
     pub(crate) until: f64,
     /// Calls so far.
     pub(crate) calls: AtomicUsize,
+    /// Images are off by up to this, in a way that changes with every bit of the start.
+    pub(crate) noise: f64,
     /// Answers `Interrupted` after so many calls.
     pub(crate) patience: usize,
 }
 
 impl<const N: usize> Smooth<N> {
-    pub(crate) fn new(map: fn(&[f64], [f64; N]) -> ([f64; N], [[f64; N]; N])) -> Self {
+    pub(crate) fn new(map: Formula<N>) -> Self {
         Self {
             map,
             until: f64::INFINITY,
             calls: AtomicUsize::new(0),
+            noise: 0.0,
             patience: usize::MAX,
         }
     }
@@ -40,7 +46,12 @@ impl<const N: usize> Family for Smooth<N> {
             if shot.parameters.first().is_some_and(|p| *p > self.until) {
                 return Err(Lost::NoMap(format!("no map above {}", self.until)));
             }
-            let (x, rows) = (self.map)(shot.parameters, shot.start.x[..].try_into().unwrap());
+            let (mut x, rows) = (self.map)(shot.parameters, shot.start.x[..].try_into().unwrap());
+            for (x, start) in x.iter_mut().zip(&shot.start.x) {
+                let bits = (start + shot.parameters.first().unwrap_or(&0.0)).to_bits();
+                let scrambled = bits.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32;
+                *x += self.noise * (scrambled as f64 / 2.0_f64.powi(31) - 1.0);
+            }
             Ok(Image {
                 place: at(&x),
                 derivative: Some(Matrix::from_fn(N, N, |row, col| rows[row][col])),
