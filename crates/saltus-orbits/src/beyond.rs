@@ -2,6 +2,7 @@
 
 use crate::continuation::Point;
 use crate::linear::{dot, norm};
+use crate::orbit::shortest_period;
 use crate::path::Path;
 use crate::shooting::Guess;
 use crate::{Family, Shot, Special, SpecialKind, Touch, events};
@@ -97,7 +98,8 @@ impl<F: Family + ?Sized> Path<'_, F> {
             let found = self.solve(&guess, &self.upwards(), &self.upwards());
             if let Ok(point) = found {
                 let way = self.apart(last, &point);
-                let new = !events::same(&old, &events::sequence(&point.orbit));
+                let new = !events::same(&old, &events::sequence(&point.orbit))
+                    && shortest_period(&point.orbit.places) == point.orbit.period();
                 if new && norm(&way) <= reach {
                     let away = dot(&point.tangent, &way) >= 0.0;
                     return Some(if away { point } else { point.reversed() });

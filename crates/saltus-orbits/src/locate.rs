@@ -91,6 +91,13 @@ impl<F: Family + ?Sized> Path<'_, F> {
         Ok((self.special(&a, &b, near), b))
     }
 
+    /// The grazing between the last point of a branch and the first one beyond, with none in between.
+    pub(crate) fn gap(&self, last: &Point, beyond: &Point, near: usize) -> Option<Special> {
+        let (mut a, mut b) = (last.clone(), beyond.clone());
+        self.approach(&mut a, &mut b);
+        self.special(&a, &b, near)
+    }
+
     /// The special point between two points that are next to each other.
     fn special(&self, a: &Point, b: &Point, near: usize) -> Option<Special> {
         let test = *changes(a, b).first()?;

@@ -3,6 +3,7 @@
 
 use crate::continuation::{Branch, End, Point};
 use crate::linear::{dot, minus, norm, scaled, unit};
+use crate::orbit::shortest_period;
 use crate::path::Path;
 use crate::special::{Special, SpecialKind};
 use crate::{Family, Multiplier, events};
@@ -70,7 +71,15 @@ impl<F: Family + ?Sized> Path<'_, F> {
                     point
                 }
                 Err(obstacle) => match self.shorter(&branch.points, step, &obstacle) {
-                    Shorter::End => break obstacle,
+                    Shorter::End => {
+                        // From the side with the switches no touch tells that a grazing is near.
+                        let Some((point, special)) = self.across(&branch.points, &obstacle) else {
+                            break obstacle;
+                        };
+                        branch.specials.push(special);
+                        step = self.distance(last, &point).max(self.options.smallest);
+                        point
+                    }
                     Shorter::Step(shorter) => {
                         step = shorter;
                         continue;
@@ -118,6 +127,18 @@ impl<F: Family + ?Sized> Path<'_, F> {
         Ok((point, specials))
     }
 
+    /// The orbit with other switches across a grazing right ahead, if that may be the obstacle.
+    fn across(&self, points: &[Point], obstacle: &End) -> Option<(Point, Special)> {
+        let last = points.last()?;
+        let lost = matches!(obstacle, End::Failed(_) | End::StepTooSmall);
+        if !lost || points.len() == 1 {
+            return None;
+        }
+        let point = self.beyond(last, 0.0)?;
+        let special = self.gap(last, &point, points.len() - 1)?;
+        Some((point, special))
+    }
+
     /// Whether a point is at an end of the range and the branch leads out.
     fn leaves(&self, point: &Point) -> bool {
         let [low, high] = self.range;
@@ -161,6 +182,9 @@ impl<F: Family + ?Sized> Path<'_, F> {
             if angle(&last.tangent, &point.tangent) > self.options.angle {
                 return Err(End::StepTooSmall);
             }
+        } else if shortest_period(&point.orbit.places) < shortest_period(&last.orbit.places) {
+            // At a kink the corrector finds the orbit of half the period as easily.
+            return Err(End::StepTooSmall);
         } else if dot(&point.tangent, &self.apart(last, &point)) < 0.0 {
             // Where the map has a kink so has the branch, and its old direction says little.
             point = point.reversed();

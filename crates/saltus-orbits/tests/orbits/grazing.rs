@@ -85,16 +85,33 @@ fn an_impact_with_a_square_root_is_found_and_passed() {
 fn beyond_a_square_root_the_branch_comes_back_on_the_same_side() {
     // With the visit (1 - a) x - sqrt x = rho: for small x > 0 only at rho < 0, so the branch turns back at
     // rho = 0 with a vertical tangent, and once more, smoothly, at rho = -1/(4 (1 - a)).
-    let a = 0.4;
-    let start = orbit(&Root, &[-0.2, a, 0.0], &[-0.3]);
-    let branch = both(&Root, &start);
-    let found = kinds(&branch);
-    assert_eq!(found.len(), 2, "{found:?} {:?}", branch.ends);
-    assert!(found[0].0 == "GR" && found[0].1.abs() < 1e-8, "{found:?}");
-    assert!(found[1].0 == "LP" && (found[1].1 + 0.25 / (1.0 - a)).abs() < 1e-9);
-    assert_eq!(branch.specials[0].outside, [0, 1]);
-    assert_eq!(branch.ends, [End::RangeEnd, End::RangeEnd]);
-    assert_eq!(branch.points.last().unwrap().parameter, 0.5);
+    let a = 0.4_f64;
+    let fold = -0.25 / (1.0 - a);
+    let root = (1.0 - (1.0 - 0.8 * (1.0 - a)).sqrt()) / (2.0 * (1.0 - a));
+    // From the side with the visit no touch tells that the grazing is near.
+    for x in [-0.3, root * root] {
+        let start = orbit(&Root, &[-0.2, a, 0.0], &[x]);
+        let branch = both(&Root, &start);
+        let mut found = kinds(&branch);
+        found.sort_by(|a, b| b.1.total_cmp(&a.1));
+        assert_eq!(found.len(), 2, "{found:?} {:?}", branch.ends);
+        assert!(found[0].0 == "GR" && found[0].1.abs() < 1e-8, "{found:?}");
+        assert!(
+            found[1].0 == "LP" && (found[1].1 - fold).abs() < 1e-9,
+            "{found:?}"
+        );
+        assert_eq!(branch.ends, [End::RangeEnd, End::RangeEnd]);
+        let mut ends = [0, branch.points.len() - 1].map(|i| branch.points[i].parameter);
+        ends.sort_by(f64::total_cmp);
+        assert_eq!(ends, [-0.5, 0.5]);
+        let grazing = branch
+            .specials
+            .iter()
+            .find(|s| s.kind.short() == "GR")
+            .unwrap();
+        assert_eq!(grazing.outside.iter().sum::<usize>(), 1);
+        assert!(grazing.remark.is_some());
+    }
 }
 
 #[test]
