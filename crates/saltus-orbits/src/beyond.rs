@@ -5,6 +5,7 @@ use crate::linear::{dot, norm};
 use crate::orbit::shortest_period;
 use crate::path::Path;
 use crate::shooting::Guess;
+use crate::special::JUMP;
 use crate::{Family, Shot, Special, SpecialKind, Touch, events};
 
 /// Offsets of the parameter from the grazing, in units of its range: with a square root in the map an
@@ -53,9 +54,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
         ];
         let remark = match behind {
             None => "no orbit was found near beyond it",
-            Some(_) if outside[0] != outside[1] => {
-                "stability changes here without a multiplier on the unit circle"
-            }
+            Some(_) if outside[0] != outside[1] => JUMP,
             Some(_) => "the branch goes on with other switches",
         };
         Special {

@@ -22,7 +22,8 @@ pub struct Along {
 /// How branches are followed. Steps are lengths in (x_1, parameter).
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContinuationOptions {
-    /// How orbits are solved for.
+    /// How orbits are solved for. Fewer steps than for an orbit from afar: a shorter step along the branch costs
+    /// less than a Newton iteration that struggles.
     pub newton: NewtonOptions,
     /// First step.
     pub initial: f64,
@@ -41,7 +42,10 @@ pub struct ContinuationOptions {
 impl Default for ContinuationOptions {
     fn default() -> Self {
         Self {
-            newton: NewtonOptions::default(),
+            newton: NewtonOptions {
+                iterations: 8,
+                ..NewtonOptions::default()
+            },
             initial: 0.01,
             smallest: 1e-7,
             largest: 0.05,

@@ -2,7 +2,7 @@
 
 use crate::continuation::Point;
 use crate::path::Path;
-use crate::special::{Special, Test, changes};
+use crate::special::{JUMP, Special, Test, changes};
 use crate::touching::switches;
 use crate::{Family, NotFound, linear};
 
@@ -116,9 +116,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
             orbit: best.orbit.clone(),
             near,
             outside: [a.outside, b.outside],
-            remark: jumps.then(|| {
-                "stability changes here without a multiplier on the unit circle".to_owned()
-            }),
+            remark: jumps.then(|| JUMP.to_owned()),
             tangent: best.tangent.clone(),
         })
     }

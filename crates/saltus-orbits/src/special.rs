@@ -44,6 +44,9 @@ impl SpecialKind {
     }
 }
 
+/// The remark on a grazing where [`Special::outside`] changes.
+pub(crate) const JUMP: &str = "stability changes here without a multiplier on the unit circle";
+
 /// A special point of a branch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Special {

@@ -69,7 +69,8 @@ fn the_three_window_of_the_logistic_map_opens_at_1_plus_sqrt_8() {
     let map = logistic();
     let start = orbit(&map, &[3.835], &[&[0.152], &[0.494], &[0.958]]);
     let branch = both(&map, &start, &along(0, 3.8, 3.9));
-    // The 3-cycle doubles at 3.841499007543 (OEIS A086181: 3.8414990075435...).
+    // As z^2 + c with r = 1 + sqrt(1 - 4 c) a 3-cycle of multiplier mu obeys c^3 + 2 c^2 + m c + m^2 = 0 with
+    // m = 1 - mu/8: mu = 1 gives c = -7/4, mu = -1 the other number.
     assert_specials(
         &branch,
         &[("LP", 1.0 + 8_f64.sqrt()), ("PD", 3.841_499_007_543)],
