@@ -1,9 +1,12 @@
 //! Beyond a grazing at which the map has no derivative, where no small step leads.
 
-use crate::continuation::{Path, Point};
-use crate::linear::{dot, minus, norm};
+use crate::continuation::Point;
+use crate::linear::{dot, norm};
+use crate::orbit::shortest_period;
+use crate::path::Path;
 use crate::shooting::Guess;
-use crate::{Family, Shot, events};
+use crate::special::JUMP;
+use crate::{Family, Shot, Special, SpecialKind, Touch, events};
 
 /// Offsets of the parameter from the grazing, in units of its range: with a square root in the map an
 /// orbit may lie as far as the root of the first.
@@ -16,6 +19,56 @@ const ITERATES: usize = 4;
 const NEAR: f64 = 10.0;
 
 impl<F: Family + ?Sized> Path<'_, F> {
+    /// How far ahead a touch comes to zero, if the last two points go on like that, and of which unit.
+    pub(crate) fn to_touch(&self, points: &[Point]) -> Option<(usize, f64)> {
+        let [.., before, last] = points else {
+            return None;
+        };
+        let length = self.distance(before, last);
+        let ahead = |i: usize, touch: &Touch| {
+            let same = |t: &&Touch| t.unit == touch.unit && t.guard == touch.guard;
+            let off = |t: &Touch| (t.at - touch.at).abs();
+            let earlier = before.orbit.touches[i].iter().filter(same);
+            let earlier = earlier.min_by(|a, b| off(a).total_cmp(&off(b)))?;
+            let closing = (earlier.value - touch.value) / length;
+            (closing > 0.0).then(|| (touch.unit, touch.value / closing))
+        };
+        let touches = last.orbit.touches.iter().enumerate();
+        touches
+            .flat_map(|(i, all)| all.iter().filter_map(move |touch| ahead(i, touch)))
+            .min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The label of a grazing that no orbit passes smoothly.
+    pub(crate) fn grazing(
+        &self,
+        points: &[Point],
+        unit: usize,
+        ahead: f64,
+        behind: Option<&Point>,
+    ) -> Special {
+        let last = &points[points.len() - 1];
+        let outside = [
+            last.outside,
+            behind.map_or(last.outside, |point| point.outside),
+        ];
+        let remark = match behind {
+            None => "no orbit was found near beyond it",
+            Some(_) if outside[0] != outside[1] => JUMP,
+            Some(_) => "the branch goes on with other switches",
+        };
+        Special {
+            label: String::new(),
+            kind: SpecialKind::Grazing { unit },
+            parameter: last.parameter + ahead * last.pace() * self.free[0].unit,
+            orbit: last.orbit.clone(),
+            near: points.len() - 1,
+            outside,
+            remark: Some(remark.to_owned()),
+            tangent: last.tangent.clone(),
+        }
+    }
+
     /// The nearest orbit with other switches beyond a grazing that lies `ahead` of `last`, oriented away
     /// from it. The branch may go on, or come back on the same side of the parameter.
     pub(crate) fn beyond(&self, last: &Point, ahead: f64) -> Option<Point> {
@@ -44,7 +97,8 @@ impl<F: Family + ?Sized> Path<'_, F> {
             let found = self.solve(&guess, &self.upwards(), &self.upwards());
             if let Ok(point) = found {
                 let way = self.apart(last, &point);
-                let new = !events::same(&old, &events::sequence(&point.orbit));
+                let new = !events::same(&old, &events::sequence(&point.orbit))
+                    && shortest_period(&point.orbit.places) == point.orbit.period();
                 if new && norm(&way) <= reach {
                     let away = dot(&point.tangent, &way) >= 0.0;
                     return Some(if away { point } else { point.reversed() });
@@ -68,7 +122,6 @@ impl<F: Family + ?Sized> Path<'_, F> {
             at = self.family.images(&[shot]).pop()?.ok()?.place;
             *place = at.clone();
         }
-        let far = minus(&next.places[0].x, &guess.places[0].x);
-        norm(&far).is_finite().then_some(next)
+        Some(next)
     }
 }

@@ -1,10 +1,9 @@
 //! A branch with those that grow from it: period-doubling cascades and crossing branches.
 
-use crate::continuation::{
-    Along, Branch, ContinuationError, ContinuationOptions, End, Path, Point,
-};
+use crate::continuation::{Along, Branch, ContinuationError, ContinuationOptions, End, Point};
 use crate::follow::Labels;
 use crate::linear::{minus, size};
+use crate::path::Path;
 use crate::{Family, Orbit, Special, SpecialKind};
 
 /// Two special points at the same place, as parts of the range and of the state: several times what they are

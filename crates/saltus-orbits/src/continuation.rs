@@ -4,13 +4,9 @@
 //! tangent t the corrector solves the equations of the orbit with t (u - u_predicted) = 0, so it passes
 //! folds. The parameter counts in units of its range, divided by [`ContinuationOptions::weight`].
 
-use crate::linear::{self, minus, norm, unit};
-use crate::shooting::{Change, Free, Guess, Pass, Shooting};
-use crate::{Family, Lost, Matrix, NewtonOptions, NotFound, Orbit, Special};
-
-/// Two branches cross where the equations lose a rank to within this. Derivatives by differences have errors of
-/// 1e-11, which turn the tangent by up to 1e-6 where the rest is larger.
-const CROSSING: f64 = 1e-5;
+use crate::linear::scaled;
+use crate::shooting::Change;
+use crate::{Lost, NewtonOptions, NotFound, Orbit, Special};
 
 /// The parameter that changes, and how far.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +22,8 @@ pub struct Along {
 /// How branches are followed. Steps are lengths in (x_1, parameter).
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContinuationOptions {
-    /// How orbits are solved for.
+    /// How orbits are solved for. Fewer steps than for an orbit from afar: a shorter step along the branch costs
+    /// less than a Newton iteration that struggles.
     pub newton: NewtonOptions,
     /// First step.
     pub initial: f64,
@@ -45,7 +42,10 @@ pub struct ContinuationOptions {
 impl Default for ContinuationOptions {
     fn default() -> Self {
         Self {
-            newton: NewtonOptions::default(),
+            newton: NewtonOptions {
+                iterations: 8,
+                ..NewtonOptions::default()
+            },
             initial: 0.01,
             smallest: 1e-7,
             largest: 0.05,
@@ -84,10 +84,10 @@ impl Point {
 
     /// The same point of the branch followed the other way.
     pub(crate) fn reversed(mut self) -> Self {
-        let turn = |all: &mut [f64]| all.iter_mut().for_each(|value| *value = -*value);
-        turn(&mut self.tangent);
-        turn(&mut self.spread.free);
-        self.spread.x.iter_mut().for_each(|x| turn(x));
+        let turned = |all: &[f64]| scaled(all, -1.0);
+        self.tangent = turned(&self.tangent);
+        self.spread.free = turned(&self.spread.free);
+        self.spread.x = self.spread.x.iter().map(|x| turned(x)).collect();
         self.side = -self.side;
         self
     }
@@ -135,6 +135,22 @@ impl std::fmt::Display for End {
             Self::StepTooSmall => write!(f, "bends too much for the smallest step"),
             Self::Resonance => write!(f, "the pair of multipliers became real: a resonance"),
             Self::Interrupted => write!(f, "interrupted"),
+        }
+    }
+}
+
+impl From<NotFound> for End {
+    fn from(reason: NotFound) -> Self {
+        match reason {
+            NotFound::Lost {
+                reason: Lost::Interrupted,
+                ..
+            } => Self::Interrupted,
+            NotFound::Lost {
+                reason: reason @ Lost::NoMap(_),
+                ..
+            } => Self::NoMap(reason),
+            reason => Self::Failed(reason),
         }
     }
 }
@@ -193,155 +209,4 @@ pub enum ContinuationError {
     /// The start is no orbit.
     #[error("the start is no orbit: {0}")]
     Start(#[from] NotFound),
-}
-
-/// Everything a branch is followed with.
-pub(crate) struct Path<'a, F: ?Sized> {
-    pub(crate) family: &'a F,
-    pub(crate) free: [Free; 1],
-    /// Least and largest value of the parameter.
-    pub(crate) range: [f64; 2],
-    pub(crate) options: &'a ContinuationOptions,
-}
-
-impl<'a, F: Family + ?Sized> Path<'a, F> {
-    pub(crate) fn new(
-        family: &'a F,
-        start: &Orbit,
-        along: &Along,
-        options: &'a ContinuationOptions,
-    ) -> Result<Self, ContinuationError> {
-        let Along {
-            parameter: index,
-            from,
-            to,
-        } = *along;
-        let count = start.parameters.len();
-        let value = *start
-            .parameters
-            .get(index)
-            .ok_or(ContinuationError::NoParameter { index, count })?;
-        let (low, high) = (from.min(to), from.max(to));
-        let steps = [options.smallest, options.initial, options.largest];
-        if !(low < high && (high - low).is_finite()) {
-            return Err(ContinuationError::BadRange { from, to });
-        }
-        if !(low..=high).contains(&value) {
-            return Err(ContinuationError::OutsideRange { value });
-        }
-        if !(steps.is_sorted() && steps[0] > 0.0 && steps[2].is_finite())
-            || [options.weight, options.angle]
-                .iter()
-                .any(|x| !(*x > 0.0 && x.is_finite()))
-        {
-            return Err(ContinuationError::BadSteps);
-        }
-        let unit = (high - low) / options.weight;
-        Ok(Self {
-            family,
-            free: [Free { index, unit }],
-            range: [low, high],
-            options,
-        })
-    }
-
-    pub(crate) fn shooting(&self) -> Shooting<'_, F> {
-        Shooting {
-            family: self.family,
-            free: &self.free,
-            newton: &self.options.newton,
-        }
-    }
-
-    /// u = (x_1, parameter in its unit).
-    pub(crate) fn coordinates(&self, orbit: &Orbit) -> Vec<f64> {
-        let mut u = orbit.places[0].x.clone();
-        u.push(orbit.parameters[self.free[0].index] / self.free[0].unit);
-        u
-    }
-
-    /// u_b - u_a.
-    pub(crate) fn apart(&self, a: &Point, b: &Point) -> Vec<f64> {
-        minus(&self.coordinates(&b.orbit), &self.coordinates(&a.orbit))
-    }
-
-    /// (0, 1): the direction of the parameter alone.
-    pub(crate) fn upwards(&self) -> Vec<f64> {
-        let mut direction = vec![0.0; self.family.dimension() + 1];
-        direction[self.family.dimension()] = 1.0;
-        direction
-    }
-
-    /// The point near a guess in the plane through it that is normal to `normal`, with its tangent
-    /// oriented to the side of `ahead`.
-    pub(crate) fn solve(
-        &self,
-        guess: &Guess,
-        normal: &[f64],
-        ahead: &[f64],
-    ) -> Result<Point, NotFound> {
-        let pass = self
-            .shooting()
-            .correct(guess, std::slice::from_ref(&normal.to_vec()))?;
-        self.point(&pass, ahead)
-    }
-
-    fn point(&self, pass: &Pass, ahead: &[f64]) -> Result<Point, NotFound> {
-        let orbit = Orbit::of(pass)?;
-        let singular = || NotFound::Singular {
-            residual: pass.residual,
-            places: pass.places.clone(),
-        };
-        let equations = pass.equations().ok_or_else(singular)?;
-        let tangent = linear::tangent(&equations, CROSSING, ahead).ok_or_else(singular)?;
-        let n = equations.nrows();
-        let bordered = Matrix::from_fn(n + 1, n + 1, |row, col| {
-            if row < n {
-                equations[(row, col)]
-            } else {
-                tangent[col]
-            }
-        });
-        Ok(Point {
-            parameter: orbit.parameters[self.free[0].index],
-            stable: orbit.stable(),
-            outside: orbit.outside(),
-            spread: pass.spread(&tangent).ok_or_else(singular)?,
-            side: linear::determinant(&bordered),
-            tangent,
-            orbit,
-        })
-    }
-
-    /// The point of the branch at a part of the way from `a` to `b`, in the plane normal to that way.
-    pub(crate) fn between(&self, a: &Point, b: &Point, part: f64) -> Result<Point, NotFound> {
-        let way = unit(&self.apart(a, b));
-        self.solve(&self.mixed(a, b, part), &way, &way)
-    }
-
-    /// The orbit of `a` moved by a part of the difference to `b`.
-    pub(crate) fn mixed(&self, a: &Point, b: &Point, part: f64) -> Guess {
-        let (from, to) = (&a.orbit.places, &b.orbit.places);
-        let change = Change {
-            x: from
-                .iter()
-                .zip(to)
-                .map(|(a, b)| minus(&b.x, &a.x))
-                .collect(),
-            free: vec![(b.parameter - a.parameter) / self.free[0].unit],
-        };
-        a.orbit.guess().moved(&self.free, part, &change)
-    }
-
-    /// A start with its tangent towards growing parameter, or falling.
-    pub(crate) fn seed(&self, start: &Orbit, growing: bool) -> Result<Point, NotFound> {
-        let up = self.upwards();
-        let point = self.solve(&start.guess(), &up, &up)?;
-        Ok(if growing { point } else { point.reversed() })
-    }
-
-    /// Length of the chord between two points.
-    pub(crate) fn distance(&self, a: &Point, b: &Point) -> f64 {
-        norm(&self.apart(a, b))
-    }
 }

@@ -7,19 +7,15 @@
 //! method, lifted to the surface by the corrector.
 
 use crate::continuation::{Along, ContinuationError, ContinuationOptions, End};
-use crate::linear::{self, dot, minus, norm, plus, unit};
-use crate::shooting::{Change, Free, Pass, Shooting};
-use crate::special::{SpecialKind, critical_pair};
-use crate::{Family, Lost, Multiplier, NotFound, Orbit, Special, events};
-
-/// Offset of the differences for the gradient: residuals of 1e-11 leave errors of 1e-6.
-const DIFFERENCE: f64 = 1e-5;
+use crate::linear::{dot, minus, norm, unit};
+use crate::path::Path;
+use crate::shooting::Free;
+use crate::special::critical_pair;
+use crate::surface::{Spot, Station, Surface};
+use crate::{Family, Multiplier, NotFound, Orbit, Special, SpecialKind};
 
 /// psi, or the last change of b, at which a point lies on the curve.
 const ZERO: f64 = 1e-11;
-
-/// Grazing is approached to this value of the guard, since there is no value beyond zero.
-const TOUCHING: f64 = 1e-9;
 
 /// Evaluations for one point at most; the secant method takes 3 to 5.
 const ROUNDS: usize = 30;
@@ -67,7 +63,7 @@ pub fn follow_curve<F: Family + ?Sized>(
     keep_going: &mut dyn FnMut(&CurvePoint) -> bool,
 ) -> Result<Curve, ContinuationError> {
     for along in over {
-        crate::continuation::Path::new(family, &start.orbit, along, options)?;
+        Path::new(family, &start.orbit, along, options)?;
     }
     let surface = Surface {
         family,
@@ -96,12 +92,12 @@ pub fn follow_curve<F: Family + ?Sized>(
         return Err(no_curve);
     }
     let first = surface.station(spot, None).ok_or(no_curve)?;
-    let forth = surface.walk(first.clone(), keep_going);
+    let forth = surface.walk(&first, keep_going);
     if matches!(forth.ends[1], End::Closed | End::Interrupted) {
         return Ok(forth);
     }
     let mut begun = false;
-    let back = surface.walk(first.turned(), &mut |point| {
+    let back = surface.walk(&first.clone().turned(), &mut |point| {
         !std::mem::replace(&mut begun, true) || keep_going(point)
     });
     let mut points = back.points;
@@ -114,136 +110,12 @@ pub fn follow_curve<F: Family + ?Sized>(
     })
 }
 
-struct Surface<'a, F: ?Sized> {
-    family: &'a F,
-    free: [Free; 2],
-    ranges: [[f64; 2]; 2],
-    options: &'a ContinuationOptions,
-    kind: SpecialKind,
-}
-
-/// A point of the surface with its psi, if it has one.
-#[derive(Clone)]
-struct Spot {
-    pass: Pass,
-    orbit: Orbit,
-    pair: Option<Multiplier>,
-    psi: Option<f64>,
-}
-
-/// A point of the curve with its frame: direction of the curve and normal, in which psi grows.
-#[derive(Clone)]
-struct Station {
-    spot: Spot,
-    frame: [Vec<f64>; 2],
-    slope: f64,
-}
-
-impl Station {
-    fn turned(mut self) -> Self {
-        self.frame[0].iter_mut().for_each(|d| *d = -*d);
-        self
-    }
-}
-
 impl<F: Family + ?Sized> Surface<'_, F> {
-    fn shooting(&self) -> Shooting<'_, F> {
-        Shooting {
-            family: self.family,
-            free: &self.free,
-            newton: &self.options.newton,
-        }
-    }
-
-    /// psi, and the pair of multipliers it belongs to: the one nearest to `before`.
-    fn spot(&self, pass: Pass, before: Option<Multiplier>) -> Result<Spot, NotFound> {
-        let orbit = Orbit::of(&pass)?;
-        let off = |mu: &Multiplier| before.map_or(0.0, |b| (mu.re - b.re).hypot(mu.im - b.im));
-        let upper = orbit.multipliers.iter().filter(|mu| mu.im > 0.0).copied();
-        let pair = upper.min_by(|a, b| off(a).total_cmp(&off(b)));
-        let determinant = |mu| linear::determinant(&linear::shifted(&orbit.monodromy, mu));
-        let psi = match self.kind {
-            SpecialKind::Fold => Some(determinant(1.0)),
-            SpecialKind::PeriodDoubling => Some(determinant(-1.0)),
-            SpecialKind::NeimarkSacker { .. } => pair.map(|mu| mu.modulus() - 1.0),
-            SpecialKind::Grazing { unit } => {
-                let touch = events::nearest_touch(&orbit, |_, touch| touch.unit == unit);
-                touch.map(|(_, touch)| touch.value - TOUCHING)
-            }
-            _ => None,
-        };
-        let psi = psi.filter(|psi| psi.is_finite());
-        Ok(Spot {
-            pass,
-            orbit,
-            pair,
-            psi,
-        })
-    }
-
-    /// The point of the surface at offsets from a spot along two tangents.
-    fn lifted(
-        &self,
-        base: &Spot,
-        along: &[Vec<f64>; 2],
-        offsets: [f64; 2],
-    ) -> Result<Spot, NotFound> {
-        let zero = vec![0.0; along[0].len()];
-        let way = plus(&plus(&zero, offsets[0], &along[0]), offsets[1], &along[1]);
-        let change: Change = base.pass.spread(&way).ok_or_else(|| NotFound::Singular {
-            residual: base.pass.residual,
-            places: base.orbit.places.clone(),
-        })?;
-        let guess = base.orbit.guess().moved(&self.free, 1.0, &change);
-        self.spot(self.shooting().correct(&guess, along)?, base.pair)
-    }
-
-    /// The frame at a point of the curve, oriented along `ahead`.
-    fn station(&self, spot: Spot, ahead: Option<&[f64]>) -> Option<Station> {
-        let plane = linear::null_space(&spot.pass.equations()?, 2)?;
-        let plane: [Vec<f64>; 2] = plane.try_into().ok()?;
-        let here = spot.psi?;
-        let slope = |offset: [f64; 2]| {
-            let sides = [DIFFERENCE, -DIFFERENCE].into_iter();
-            // A touch has a value to one side only.
-            sides
-                .filter_map(|h| {
-                    let there = self.lifted(&spot, &plane, offset.map(|o| h * o)).ok()?;
-                    Some((there.psi? - here) / h)
-                })
-                .next()
-        };
-        let gradient = [slope([1.0, 0.0])?, slope([0.0, 1.0])?];
-        let steep = norm(&gradient);
-        let mix = |a: f64, b: f64| {
-            let scaled = plus(&vec![0.0; plane[0].len()], a / steep, &plane[0]);
-            plus(&scaled, b / steep, &plane[1])
-        };
-        let mut along = mix(-gradient[1], gradient[0]);
-        if ahead.is_some_and(|ahead| dot(ahead, &along) < 0.0) {
-            along.iter_mut().for_each(|d| *d = -*d);
-        }
-        let frame = [along, mix(gradient[0], gradient[1])];
-        (steep > 0.0 && steep.is_finite()).then_some(Station {
-            spot,
-            frame,
-            slope: steep,
-        })
-    }
-
     /// The point of the curve `step` ahead, and the Newton steps it took.
     fn next(&self, from: &Station, step: f64) -> Result<(Spot, usize), End> {
         let at = |b: f64| {
             self.lifted(&from.spot, &from.frame, [step, b])
-                .map_err(|reason| match reason {
-                    NotFound::Lost { reason, .. } if reason == Lost::Interrupted => {
-                        End::Interrupted
-                    }
-                    NotFound::Lost { reason, .. } if matches!(reason, Lost::NoMap(_)) => {
-                        End::NoMap(reason)
-                    }
-                    reason => End::Failed(reason),
-                })
+                .map_err(End::from)
         };
         let mut known: Option<(f64, f64)> = None;
         let (mut b, mut slope, mut effort) = (0.0, from.slope, 0);
@@ -309,7 +181,7 @@ impl<F: Family + ?Sized> Surface<'_, F> {
         Err(End::StepTooSmall)
     }
 
-    fn walk(&self, first: Station, keep_going: &mut dyn FnMut(&CurvePoint) -> bool) -> Curve {
+    fn walk(&self, first: &Station, keep_going: &mut dyn FnMut(&CurvePoint) -> bool) -> Curve {
         let mut step = self.options.initial;
         let mut points = vec![self.point(&first.spot)];
         let mut go_on = keep_going(&points[0]);
@@ -333,7 +205,7 @@ impl<F: Family + ?Sized> Surface<'_, F> {
                     continue;
                 }
             };
-            let closed = points.len() >= ROUND && self.passes(&first, &station, &next);
+            let closed = points.len() >= ROUND && self.passes(first, &station, &next);
             points.push(self.point(&next.spot));
             go_on = keep_going(&points[points.len() - 1]);
             if last || closed {
@@ -375,13 +247,6 @@ impl<F: Family + ?Sized> Surface<'_, F> {
         (0.0..=norm(&way)).contains(&along)
             && beside <= BESIDE * norm(&way)
             && dot(&first.frame[0], &to.frame[0]) > 0.0
-    }
-
-    fn coordinates(&self, orbit: &Orbit) -> Vec<f64> {
-        let mut u = orbit.places[0].x.clone();
-        let free = self.free.iter();
-        u.extend(free.map(|free| orbit.parameters[free.index] / free.unit));
-        u
     }
 
     fn point(&self, spot: &Spot) -> CurvePoint {

@@ -7,6 +7,7 @@
 mod beyond;
 mod branches;
 mod continuation;
+mod crossing;
 mod curve;
 mod events;
 mod exponents;
@@ -18,9 +19,13 @@ mod locate;
 mod map;
 mod nature;
 mod orbit;
+mod path;
 mod shooting;
 mod special;
+mod surface;
 mod switching;
+mod touching;
+mod walk;
 
 pub use branches::{BranchesOptions, Limb, branches};
 pub use continuation::{Along, Branch, ContinuationError, ContinuationOptions, End, Point};

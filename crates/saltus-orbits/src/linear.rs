@@ -52,7 +52,7 @@ pub(crate) fn tangent(a: &Matrix, noise: f64, ahead: &[f64]) -> Option<Vec<f64>>
         unit(&plane.iter().fold(vec![0.0; ahead.len()], onto))
     };
     let sign = dot(&tangent, ahead).signum();
-    let tangent: Vec<f64> = tangent.iter().map(|value| sign * value).collect();
+    let tangent = scaled(&tangent, sign);
     tangent
         .iter()
         .all(|value| value.is_finite())
@@ -125,8 +125,12 @@ pub(crate) fn plus(a: &[f64], factor: f64, b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a + factor * b).collect()
 }
 
+/// factor a.
+pub(crate) fn scaled(a: &[f64], factor: f64) -> Vec<f64> {
+    a.iter().map(|value| factor * value).collect()
+}
+
 /// a / |a|.
 pub(crate) fn unit(a: &[f64]) -> Vec<f64> {
-    let length = norm(a);
-    a.iter().map(|value| value / length).collect()
+    scaled(a, 1.0 / norm(a))
 }

@@ -180,6 +180,16 @@ pub enum NotFound {
     },
 }
 
+impl NotFound {
+    /// Whether the work was stopped from outside.
+    pub(crate) fn is_stop(&self) -> bool {
+        let Self::Lost { reason, .. } = self else {
+            return false;
+        };
+        *reason == Lost::Interrupted
+    }
+}
+
 /// The periodic orbit near `start`, which has one place per iterate.
 ///
 /// Newton's method with multiple shooting; a step is cut as long as it makes the residual grow. The
@@ -214,7 +224,8 @@ pub fn find_orbit<F: Family + ?Sized>(
     }
 }
 
-fn check<F: Family + ?Sized>(family: &F, start: &[Place]) -> Result<(), NotFound> {
+/// Whether Newton's method can begin at a start.
+pub(crate) fn check<F: Family + ?Sized>(family: &F, start: &[Place]) -> Result<(), NotFound> {
     let dimension = family.dimension();
     let bad = |place: &Place| place.x.len() != dimension || place.x.iter().any(|x| !x.is_finite());
     match start.iter().position(bad) {

@@ -70,14 +70,17 @@ pub(crate) struct Change {
     pub(crate) free: Vec<f64>,
 }
 
+/// Derivatives of an image by the free parameters.
+type Columns = Vec<Vec<f64>>;
+
 /// One pass around a guess.
 #[derive(Clone, Debug)]
 pub(crate) struct Pass {
     pub(crate) parameters: Vec<f64>,
     pub(crate) places: Vec<Place>,
     pub(crate) images: Vec<Image>,
-    /// C_i, one column for each free parameter.
-    columns: Vec<Vec<Vec<f64>>>,
+    /// C_i.
+    columns: Vec<Columns>,
     /// g_i.
     gaps: Vec<Vec<f64>>,
     /// Largest gap.
@@ -92,7 +95,7 @@ impl Pass {
     }
 
     /// The derivative of the whole way round at the first place, M, and that by the free parameters.
-    pub(crate) fn around(&self) -> Option<(Matrix, Vec<Vec<f64>>)> {
+    pub(crate) fn around(&self) -> Option<(Matrix, Columns)> {
         let n = self.places[0].x.len();
         let mut m = Matrix::identity(n, n);
         let mut columns = vec![vec![0.0; n]; self.columns[0].len()];
@@ -197,18 +200,22 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
         for iteration in 0..=self.newton.iterations {
             pass.iterations = iteration;
             let tolerance = self.newton.tolerance * pass.scale();
-            if pass.residual <= tolerance && pass.modes_agree() {
+            let agree = pass.modes_agree();
+            if agree && pass.residual <= tolerance {
                 return Ok(pass);
             }
             if iteration == self.newton.iterations {
                 break;
             }
-            pass = match self.better(&pass, rows)? {
-                Some(next) => next,
-                None if pass.residual <= STAGNATION * tolerance && pass.modes_agree() => {
-                    return Ok(pass);
+            pass = if agree {
+                match self.better(&pass, rows)? {
+                    Some(next) => next,
+                    None if pass.residual <= STAGNATION * tolerance => return Ok(pass),
+                    None => break,
                 }
-                None => break,
+            } else {
+                // Gaps with wrong modes say nothing about the state.
+                self.pass(&pass.guess()).map_err(lost(&pass))?
             };
         }
         Err(NotFound::NotConverged {
@@ -226,30 +233,20 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
         })?;
         let length = step.x.iter().map(|x| size(x)).fold(0.0, f64::max);
         let mut part = (pass.scale() / length).min(1.0);
-        let mut lost = None;
+        let mut reason = None;
         for _ in 0..=HALVINGS {
             match self.pass(&pass.guess().moved(self.free, part, &step)) {
                 // New modes are another set of equations: their gaps need not be smaller at once.
-                Ok(next) if next.residual < pass.residual || !pass.modes_agree() => {
+                Ok(next) if next.residual < pass.residual || !next.modes_agree() => {
                     return Ok(Some(next));
                 }
-                Ok(_) => lost = None,
-                Err(Lost::Interrupted) => {
-                    lost = Some(Lost::Interrupted);
-                    break;
-                }
-                Err(reason) => lost = Some(reason),
+                Ok(_) => reason = None,
+                Err(stop @ Lost::Interrupted) => return Err(lost(pass)(stop)),
+                Err(other) => reason = Some(other),
             }
             part /= 2.0;
         }
-        match lost {
-            Some(reason) => Err(NotFound::Lost {
-                reason,
-                residual: pass.residual,
-                places: pass.places.clone(),
-            }),
-            None => Ok(None),
-        }
+        reason.map_or(Ok(None), |reason| Err(lost(pass)(reason)))
     }
 
     /// One way round: all segments side by side, one call per place within a segment.
@@ -265,7 +262,8 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
                 .filter(|&segment| first(segment) + depth < first(segment + 1))
                 .map(|segment| first(segment) + depth)
                 .collect();
-            for (i, (image, by)) in self.shoot(&guess.parameters, &places, &under_way)? {
+            let answers = self.shoot(&guess.parameters, &places, &under_way)?;
+            for (i, (image, by)) in under_way.into_iter().zip(answers) {
                 if (0..segments).all(|segment| first(segment) != i + 1) && i + 1 < n {
                     places[i + 1] = image.place.clone();
                 }
@@ -289,13 +287,12 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
     }
 
     /// Image of the places that `which` names, with the derivatives by state and free parameters.
-    #[allow(clippy::type_complexity)]
     fn shoot(
         &self,
         parameters: &[f64],
         places: &[Place],
         which: &[usize],
-    ) -> Result<Vec<(usize, (Image, Vec<Vec<f64>>))>, Lost> {
+    ) -> Result<Vec<(Image, Columns)>, Lost> {
         let offset = |free: &Free, sign: f64| {
             let mut moved = parameters.to_vec();
             moved[free.index] += sign * DIFFERENCE * free.unit;
@@ -327,11 +324,20 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
             for _ in self.free {
                 let [below, above] =
                     [answers.next(), answers.next()].map(|answer| answer.unwrap_or_else(missing));
-                columns.push(difference(&image, below, above)?);
+                columns.push(difference(&image, &below, &above)?);
             }
-            all.push((i, (image, columns)));
+            all.push((image, columns));
         }
         Ok(all)
+    }
+}
+
+/// Nothing beyond a pass.
+fn lost(pass: &Pass) -> impl Fn(Lost) -> NotFound {
+    |reason| NotFound::Lost {
+        reason,
+        residual: pass.residual,
+        places: pass.places.clone(),
     }
 }
 
@@ -358,10 +364,10 @@ fn checked(answer: Option<Result<Image, Lost>>, n: usize) -> Result<Image, Lost>
 /// dP per unit of a parameter: central, or to one side where the map ends.
 fn difference(
     image: &Image,
-    below: Result<Image, Lost>,
-    above: Result<Image, Lost>,
+    below: &Result<Image, Lost>,
+    above: &Result<Image, Lost>,
 ) -> Result<Vec<f64>, Lost> {
-    let (below, above, width) = match (&below, &above) {
+    let (below, above, width) = match (below, above) {
         (Err(Lost::Interrupted), _) | (_, Err(Lost::Interrupted)) => return Err(Lost::Interrupted),
         (Ok(below), Ok(above)) => (below, above, 2.0),
         (Ok(below), Err(_)) => (below, image, 1.0),

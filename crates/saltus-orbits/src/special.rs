@@ -44,6 +44,9 @@ impl SpecialKind {
     }
 }
 
+/// The remark on a grazing where [`Special::outside`] changes.
+pub(crate) const JUMP: &str = "stability changes here without a multiplier on the unit circle";
+
 /// A special point of a branch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Special {
@@ -55,8 +58,8 @@ pub struct Special {
     pub parameter: f64,
     /// The orbit there, or next to it where there is none: the last one before a grazing.
     pub orbit: Orbit,
-    /// It lies between this point of the branch and the next.
-    pub after: usize,
+    /// The point of the branch before it, or the one behind it where there is none before.
+    pub near: usize,
     /// Number of multipliers outside the unit circle before and after.
     pub outside: [usize; 2],
     /// What else is to be said, in words.

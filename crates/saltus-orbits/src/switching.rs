@@ -1,7 +1,8 @@
 //! From a special point to the other branches that meet there.
 
-use crate::continuation::{Path, Point};
-use crate::linear::{self, dot, plus, unit};
+use crate::continuation::Point;
+use crate::linear::{self, dot, plus, scaled, unit};
+use crate::path::Path;
 use crate::shooting::Guess;
 use crate::{Family, Orbit, Special};
 
@@ -23,8 +24,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
         self.birth(&special.orbit.guess(), |equations| {
             let plane = linear::null_space(equations, 2)?;
             let [a, b] = [&plane[0], &plane[1]].map(|v| dot(v, &special.tangent));
-            let across = plus(&vec![0.0; plane[0].len()], b, &plane[0]);
-            Some(unit(&plus(&across, -a, &plane[1])))
+            Some(unit(&plus(&scaled(&plane[0], b), -a, &plane[1])))
         })
     }
 

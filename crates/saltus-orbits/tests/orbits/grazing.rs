@@ -1,6 +1,6 @@
 //! Branches whose switches change.
 
-use crate::maps::{Border, Nordmark};
+use crate::maps::{Border, Clock, Nordmark, Root};
 use saltus_orbits::{
     Along, Branch, ContinuationOptions, End, Family, NewtonOptions, Orbit, Place, SpecialKind,
     find_orbit, follow_both,
@@ -79,4 +79,74 @@ fn an_impact_with_a_square_root_is_found_and_passed() {
     let c = 1.0 + g * t * t;
     let root = (-1.0 + (1.0 + 2.0 * c).sqrt()) / (2.0 * c);
     assert!((last.orbit.places[0].x[0] - root * root).abs() < 1e-10);
+}
+
+#[test]
+fn beyond_a_square_root_the_branch_comes_back_on_the_same_side() {
+    // With the visit (1 - a) x - sqrt x = rho: for small x > 0 only at rho < 0, so the branch turns back at
+    // rho = 0 with a vertical tangent, and once more, smoothly, at rho = -1/(4 (1 - a)).
+    let a = 0.4_f64;
+    let fold = -0.25 / (1.0 - a);
+    let root = (1.0 - (1.0 - 0.8 * (1.0 - a)).sqrt()) / (2.0 * (1.0 - a));
+    // From the side with the visit no touch tells that the grazing is near.
+    for x in [-0.3, root * root] {
+        let start = orbit(&Root, &[-0.2, a, 0.0], &[x]);
+        let branch = both(&Root, &start);
+        let mut found = kinds(&branch);
+        found.sort_by(|a, b| b.1.total_cmp(&a.1));
+        assert_eq!(found.len(), 2, "{found:?} {:?}", branch.ends);
+        assert!(found[0].0 == "GR" && found[0].1.abs() < 1e-8, "{found:?}");
+        assert!(
+            found[1].0 == "LP" && (found[1].1 - fold).abs() < 1e-9,
+            "{found:?}"
+        );
+        assert_eq!(branch.ends, [End::RangeEnd, End::RangeEnd]);
+        let mut ends = [0, branch.points.len() - 1].map(|i| branch.points[i].parameter);
+        ends.sort_by(f64::total_cmp);
+        assert_eq!(ends, [-0.5, 0.5]);
+        let grazing = branch
+            .specials
+            .iter()
+            .find(|s| s.kind.short() == "GR")
+            .unwrap();
+        assert_eq!(grazing.outside.iter().sum::<usize>(), 1);
+        assert!(grazing.remark.is_some());
+    }
+}
+
+#[test]
+fn where_nothing_lies_beyond_a_grazing_the_branch_ends_there() {
+    // With the jump the only fixed point with a visit lies beyond x = 5.
+    let start = orbit(&Root, &[-0.2, 0.4, 5.0], &[-0.3]);
+    let branch = both(&Root, &start);
+    assert_eq!(branch.ends[1], End::Grazing);
+    assert!(kinds(&branch)[0].1.abs() < 1e-8);
+    assert!(branch.ends[1].to_string().contains("no orbit"));
+}
+
+#[test]
+fn switches_of_two_units_change_their_order_and_wander_through_the_sampling_instant() {
+    // The switches of unit 0 meet those of unit 1 at p = 0.15, 0.25, 0.45, 0.55; at 0.4 one of them passes
+    // the sampling instant, which changes the modes there and nothing else.
+    let start = orbit(&Clock, &[0.05], &[0.1]);
+    let range = Along {
+        parameter: 0,
+        from: 0.0,
+        to: 0.6,
+    };
+    let options = ContinuationOptions::default();
+    let branch = follow_both(&Clock, &start, &range, &options, &mut |_| true).unwrap();
+    let found = kinds(&branch);
+    assert_eq!(found.len(), 4, "{found:?}");
+    for (found, expected) in found.iter().zip([0.15, 0.25, 0.45, 0.55]) {
+        assert!(
+            found.0 == "SO" && (found.1 - expected).abs() < 1e-9,
+            "{found:?}"
+        );
+    }
+    for point in &branch.points {
+        let inside = (0.4..0.7).contains(&point.parameter);
+        assert_eq!(point.orbit.places[0].modes, [usize::from(inside), 0]);
+        assert!((point.orbit.places[0].x[0] - 2.0 * point.parameter).abs() < 1e-11);
+    }
 }

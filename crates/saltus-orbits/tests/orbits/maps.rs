@@ -1,25 +1,32 @@
 //! Maps with known answers.
 
 use saltus_orbits::{Crossing, Family, Image, Lost, Matrix, Place, Shot, Touch};
+use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Image and rows of the derivative, from parameters and state.
+type Formula<const N: usize> = fn(&[f64], [f64; N]) -> ([f64; N], [[f64; N]; N]);
 
 /// A map given by a formula for its image and the rows of its derivative.
 pub(crate) struct Smooth<const N: usize> {
-    pub(crate) map: fn(&[f64], [f64; N]) -> ([f64; N], [[f64; N]; N]),
+    pub(crate) map: Formula<N>,
     /// Parameter 0 ends here.
     pub(crate) until: f64,
     /// Calls so far.
     pub(crate) calls: AtomicUsize,
+    /// Images are off by up to this, in a way that changes with every bit of the start.
+    pub(crate) noise: f64,
     /// Answers `Interrupted` after so many calls.
     pub(crate) patience: usize,
 }
 
 impl<const N: usize> Smooth<N> {
-    pub(crate) fn new(map: fn(&[f64], [f64; N]) -> ([f64; N], [[f64; N]; N])) -> Self {
+    pub(crate) fn new(map: Formula<N>) -> Self {
         Self {
             map,
             until: f64::INFINITY,
             calls: AtomicUsize::new(0),
+            noise: 0.0,
             patience: usize::MAX,
         }
     }
@@ -39,7 +46,12 @@ impl<const N: usize> Family for Smooth<N> {
             if shot.parameters.first().is_some_and(|p| *p > self.until) {
                 return Err(Lost::NoMap(format!("no map above {}", self.until)));
             }
-            let (x, rows) = (self.map)(shot.parameters, shot.start.x[..].try_into().unwrap());
+            let (mut x, rows) = (self.map)(shot.parameters, shot.start.x[..].try_into().unwrap());
+            for (x, start) in x.iter_mut().zip(&shot.start.x) {
+                let bits = (start + shot.parameters.first().unwrap_or(&0.0)).to_bits();
+                let scrambled = bits.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32;
+                *x += self.noise * (scrambled as f64 / 2.0_f64.powi(31) - 1.0);
+            }
             Ok(Image {
                 place: at(&x),
                 derivative: Some(Matrix::from_fn(N, N, |row, col| rows[row][col])),
@@ -99,18 +111,26 @@ pub(crate) fn circle() -> Smooth<1> {
     Smooth::new(|p, [x]| ([x + 0.1 * (1.0 - x * x - p[0] * p[0])], [[1.0 - 0.2 * x]]))
 }
 
-/// The high-bounce map of a ball on a table that shakes: phase and speed, parameters gamma and e.
-/// phase' = phase + v, v' = e v + gamma (1 + e) cos(phase') (Holmes 1982). The phase is taken less 2 pi,
-/// so one bounce per period is a fixed point.
+/// A ball that bounces on a table at height gamma sin t, from one impact to the next: phase t and speed w after
+/// the impact, parameters gamma (acceleration of the table over gravity) and e. It flies for tau with
+/// gamma sin t + w tau - tau^2/2 = gamma sin(t + tau), and w' = (1 + e) gamma cos(t + tau) - e (w - tau). The
+/// phase is taken less 2 pi, so one impact per period is a fixed point.
 pub(crate) fn bouncing_ball() -> Smooth<2> {
-    Smooth::new(|p, [phase, v]| {
+    Smooth::new(|p, [t, w]| {
         let (gamma, e) = (p[0], p[1]);
-        let next = phase + v - std::f64::consts::TAU;
-        let (sin, cos) = next.sin_cos();
-        let kick = -gamma * (1.0 + e) * sin;
+        let mut tau = 2.0 * w;
+        let closing = |tau: f64| w - tau - gamma * (t + tau).cos();
+        for _ in 0..30 {
+            let gap = gamma * t.sin() + w * tau - tau * tau / 2.0 - gamma * (t + tau).sin();
+            tau -= gap / closing(tau);
+        }
+        let (sin, cos) = (t + tau).sin_cos();
+        let by_t = 1.0 - (gamma * t.cos() - w + tau + closing(tau)) / closing(tau);
+        let by_w = -tau / closing(tau);
+        let kick = e - (1.0 + e) * gamma * sin;
         (
-            [next, e * v + gamma * (1.0 + e) * cos],
-            [[1.0, 1.0], [kick, e + kick]],
+            [t + tau - TAU, (1.0 + e) * gamma * cos - e * (w - tau)],
+            [[by_t, by_w], [kick * by_t - e, kick * by_w - e]],
         )
     })
 }
@@ -198,4 +218,71 @@ fn visit(x: f64, to: &[f64], derivative: Matrix) -> Result<Image, Lost> {
         },
         touches: if there { Vec::new() } else { vec![touch] },
     })
+}
+
+/// x -> a x + rho for x < 0, a x + jump + sqrt x + rho beyond, parameters rho, a, jump: x > 0 is a visit.
+pub(crate) struct Root;
+
+impl Family for Root {
+    fn dimension(&self) -> usize {
+        1
+    }
+
+    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
+        let image = |shot: &Shot<'_>| {
+            let [rho, a, jump] = shot.parameters[..] else {
+                return Err(Lost::NoMap("three parameters".into()));
+            };
+            let x = shot.start.x[0];
+            let (root, slope) = match x {
+                0.0.. => (jump + x.sqrt(), 0.5 / x.max(1e-300).sqrt()),
+                _ => (0.0, 0.0),
+            };
+            visit(
+                x,
+                &[a * x + root + rho],
+                Matrix::from_fn(1, 1, |_, _| a + slope),
+            )
+        };
+        shots.iter().map(image).collect()
+    }
+}
+
+/// x -> x/2 + p, parameter p. Unit 0 is in mode 1 from the phase 0.3 + p to 0.6 + p, unit 1 from 0.75 to
+/// 0.85, whatever x. A start in another mode than the phase has leads elsewhere.
+pub(crate) struct Clock;
+
+impl Family for Clock {
+    fn dimension(&self) -> usize {
+        1
+    }
+
+    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
+        let image = |shot: &Shot<'_>| {
+            let (x, p) = (shot.start.x[0], shot.parameters[0]);
+            let phases = [(0, 0, 0.3 + p), (0, 1, 0.6 + p), (1, 0, 0.75), (1, 1, 0.85)];
+            let mut crossings: Vec<Crossing> = phases
+                .iter()
+                .map(|&(unit, from, phase)| Crossing {
+                    unit,
+                    from,
+                    to: 1 - from,
+                    at: 1.0 - (1.0_f64 - phase).rem_euclid(1.0),
+                })
+                .collect();
+            crossings.sort_by(|a, b| a.at.total_cmp(&b.at));
+            let modes = vec![usize::from((0.4..0.7).contains(&p)), 0];
+            let wrong = if shot.start.modes == modes { 0.0 } else { 0.1 };
+            Ok(Image {
+                place: Place {
+                    modes,
+                    x: vec![0.5 * x + p + wrong],
+                },
+                derivative: Some(Matrix::from_fn(1, 1, |_, _| 0.5)),
+                crossings,
+                touches: Vec::new(),
+            })
+        };
+        shots.iter().map(image).collect()
+    }
 }

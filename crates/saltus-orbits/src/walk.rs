@@ -1,0 +1,266 @@
+//! One walk along a branch: predict along the tangent, correct, look what happened on the way, choose the
+//! step.
+
+use crate::continuation::{Branch, End, Point};
+use crate::linear::{dot, minus, norm, scaled, unit};
+use crate::orbit::shortest_period;
+use crate::path::Path;
+use crate::special::{Special, SpecialKind};
+use crate::{Family, Multiplier, events};
+
+/// The corrector stays within so many steps of the prediction, or it may have found another branch.
+const NEAR: f64 = 2.0;
+
+/// Newton steps that let the next step of the branch grow, and that make it shrink.
+const EASY: usize = 3;
+const HARD: usize = 6;
+
+/// Steps grow by this factor at most.
+const GROWTH: f64 = 1.6;
+
+/// A touch this far ahead is reached: nearer, residuals blur its value.
+const AT_TOUCH: f64 = 1e-9;
+
+/// The part of the way to a touch that one step covers.
+const APPROACH: f64 = 0.95;
+
+/// On the first step of a branch from its birth the critical multiplier moves by less than this.
+const BORN: f64 = 0.3;
+
+/// Points before a branch may close.
+const ROUND: usize = 5;
+
+/// The same orbit again: both were solved for to far below.
+const SAME: f64 = 1e-6;
+
+impl<F: Family + ?Sized> Path<'_, F> {
+    /// A branch from a point along its tangent. A branch is `born` at a special point of another one, which
+    /// is none of its own.
+    pub(crate) fn walk(
+        &self,
+        seed: Point,
+        born: bool,
+        keep_going: &mut dyn FnMut(&Point) -> bool,
+    ) -> Branch {
+        let mut go_on = keep_going(&seed);
+        let mut branch = Branch {
+            points: vec![seed],
+            specials: Vec::new(),
+            ends: [End::Start, End::Interrupted],
+        };
+        let mut step = self.options.initial;
+        branch.ends[1] = loop {
+            let last = &branch.points[branch.points.len() - 1];
+            if !go_on {
+                break End::Interrupted;
+            }
+            if branch.points.len() >= self.options.points.max(1) {
+                break End::PointLimit;
+            }
+            if self.leaves(last) {
+                break End::RangeEnd;
+            }
+            let point = match self.seen(&branch.points, born, step) {
+                Ok((point, specials)) => {
+                    step = self.next_step(last, &point, step);
+                    branch.specials.extend(specials);
+                    let meets = |s: &Special| s.kind == SpecialKind::Halving;
+                    if branch.specials.last().is_some_and(meets) {
+                        break End::Halved;
+                    }
+                    point
+                }
+                Err(obstacle) => match self.shorter(&branch.points, step, &obstacle) {
+                    Shorter::End => {
+                        // From the side with the switches no touch tells that a grazing is near.
+                        let Some((point, special)) = self.across(&branch.points, &obstacle) else {
+                            break obstacle;
+                        };
+                        branch.specials.push(special);
+                        step = self.distance(last, &point).max(self.options.smallest);
+                        point
+                    }
+                    Shorter::Step(shorter) => {
+                        step = shorter;
+                        continue;
+                    }
+                    Shorter::Grazing(unit, ahead) => {
+                        let behind = self.beyond(last, ahead);
+                        let special = self.grazing(&branch.points, unit, ahead, behind.as_ref());
+                        branch.specials.push(special);
+                        let Some(point) = behind else {
+                            break End::Grazing;
+                        };
+                        step = self.distance(last, &point).max(self.options.smallest);
+                        point
+                    }
+                },
+            };
+            let closed = self.closed(&branch.points, &point);
+            go_on = keep_going(&point);
+            branch.points.push(point);
+            if closed {
+                break End::Closed;
+            }
+        };
+        branch
+    }
+
+    /// The point `step` ahead and the special points before it, up to one where the branch ends.
+    fn seen(&self, points: &[Point], born: bool, step: f64) -> Result<(Point, Vec<Special>), End> {
+        let last = &points[points.len() - 1];
+        let point = self.next(last, step)?;
+        if born && points.len() == 1 {
+            return match critical(&point) {
+                true => Ok((point, Vec::new())),
+                false => Err(End::StepTooSmall),
+            };
+        }
+        let mut specials = self.specials(last, &point, points.len() - 1)?;
+        let crossing = |s: &Special| s.kind == SpecialKind::BranchPoint;
+        if halved(last, &point)
+            && let Some(met) = specials.iter().position(crossing)
+        {
+            specials.truncate(met + 1);
+            specials[met].kind = SpecialKind::Halving;
+        }
+        Ok((point, specials))
+    }
+
+    /// The orbit with other switches across a grazing right ahead, if that may be the obstacle.
+    fn across(&self, points: &[Point], obstacle: &End) -> Option<(Point, Special)> {
+        let last = points.last()?;
+        let lost = matches!(obstacle, End::Failed(_) | End::StepTooSmall);
+        if !lost || points.len() == 1 {
+            return None;
+        }
+        let point = self.beyond(last, 0.0)?;
+        let special = self.gap(last, &point, points.len() - 1)?;
+        Some((point, special))
+    }
+
+    /// Whether a point is at an end of the range and the branch leads out.
+    fn leaves(&self, point: &Point) -> bool {
+        let [low, high] = self.range;
+        let pace = point.pace();
+        (point.parameter >= high && pace > 0.0) || (point.parameter <= low && pace < 0.0)
+    }
+
+    fn inside(&self, parameter: f64) -> f64 {
+        parameter.clamp(self.range[0], self.range[1])
+    }
+
+    /// The point `step` ahead, or that at the end of the range before it.
+    fn next(&self, last: &Point, step: f64) -> Result<Point, End> {
+        let ahead = last.parameter + step * last.pace() * self.free[0].unit;
+        let mut point = if self.inside(ahead) == ahead {
+            let guess = last.orbit.guess().moved(&self.free, step, &last.spread);
+            let point = self.solve(&guess, &last.tangent, &last.tangent)?;
+            let aside = minus(&self.apart(last, &point), &scaled(&last.tangent, step));
+            if norm(&aside) > NEAR * step {
+                return Err(End::StepTooSmall);
+            }
+            point
+        } else {
+            let edge = self.inside(ahead);
+            let step = step * (edge - last.parameter) / (ahead - last.parameter);
+            let mut guess = last.orbit.guess().moved(&self.free, step, &last.spread);
+            guess.parameters[self.free[0].index] = edge;
+            self.solve(&guess, &self.upwards(), &last.tangent)?
+        };
+        let edge = self.inside(point.parameter);
+        if edge != point.parameter {
+            let part = (edge - last.parameter) / (point.parameter - last.parameter);
+            let mut guess = self.mixed(last, &point, part);
+            guess.parameters[self.free[0].index] = edge;
+            point = self.solve(&guess, &self.upwards(), &point.tangent)?;
+        }
+        if events::same(
+            &events::sequence(&last.orbit),
+            &events::sequence(&point.orbit),
+        ) {
+            if angle(&last.tangent, &point.tangent) > self.options.angle {
+                return Err(End::StepTooSmall);
+            }
+        } else if shortest_period(&point.orbit.places) < shortest_period(&last.orbit.places) {
+            // At a kink the corrector finds the orbit of half the period as easily.
+            return Err(End::StepTooSmall);
+        } else if dot(&point.tangent, &self.apart(last, &point)) < 0.0 {
+            // Where the map has a kink so has the branch, and its old direction says little.
+            point = point.reversed();
+        }
+        Ok(point)
+    }
+
+    /// The step after one that led from `last` to `point`.
+    fn next_step(&self, last: &Point, point: &Point, step: f64) -> f64 {
+        let bend = angle(&last.tangent, &point.tangent).max(f64::MIN_POSITIVE);
+        let by_bend = 0.5 * self.options.angle / bend;
+        let by_newton = match point.orbit.iterations {
+            0..=EASY => GROWTH,
+            HARD.. => 0.5,
+            _ => 1.0,
+        };
+        let factor = by_bend.min(by_newton).clamp(0.5, GROWTH);
+        (factor * step).clamp(self.options.smallest, self.options.largest)
+    }
+
+    /// What to do about an obstacle.
+    fn shorter(&self, points: &[Point], step: f64, obstacle: &End) -> Shorter {
+        match self.to_touch(points) {
+            _ if *obstacle == End::Interrupted => Shorter::End,
+            Some((unit, ahead)) if ahead < AT_TOUCH => Shorter::Grazing(unit, ahead),
+            // Rounding leaves nothing to try below.
+            Some((_, ahead)) if ahead < 2.0 * step && step > 1e-3 * AT_TOUCH => {
+                Shorter::Step((APPROACH * ahead).min(step / 2.0))
+            }
+            _ if step / 2.0 < self.options.smallest => Shorter::End,
+            _ => Shorter::Step(step / 2.0),
+        }
+    }
+
+    /// Whether the step to `point` passes the first point of the branch.
+    fn closed(&self, points: &[Point], point: &Point) -> bool {
+        let (start, last) = (&points[0], &points[points.len() - 1]);
+        if points.len() < ROUND || dot(&start.tangent, &point.tangent) < 0.0 {
+            return false;
+        }
+        let length = self.distance(last, point);
+        let part = dot(&self.apart(last, start), &unit(&self.apart(last, point))) / length;
+        if !(0.0..=1.0).contains(&part) || self.distance(last, start) > NEAR * length {
+            return false;
+        }
+        let again = self.between(last, point, part);
+        again.is_ok_and(|again| self.distance(&again, start) <= SAME)
+    }
+}
+
+enum Shorter {
+    Step(f64),
+    /// Of a unit, so far ahead.
+    Grazing(usize, f64),
+    End,
+}
+
+/// Angle between two unit vectors.
+fn angle(a: &[f64], b: &[f64]) -> f64 {
+    // From the chord: the cosine says nothing about small angles.
+    2.0 * (norm(&minus(a, b)) / 2.0).min(1.0).asin()
+}
+
+/// Whether a multiplier is near +1, as it is where a branch is born. What happens on the first step cannot be
+/// seen, so it must be short.
+fn critical(point: &Point) -> bool {
+    let off = |mu: &Multiplier| (mu.re - 1.0).hypot(mu.im);
+    point.orbit.multipliers.iter().any(|mu| off(mu) < BORN)
+}
+
+/// Whether the two halves of an orbit change sides from `a` to `b`: in between they are one.
+fn halved(a: &Point, b: &Point) -> bool {
+    let n = a.orbit.period();
+    let across = |point: &Point| {
+        let places = &point.orbit.places;
+        minus(&places[n / 2].x, &places[0].x)
+    };
+    n.is_multiple_of(2) && dot(&across(a), &across(b)) < 0.0
+}
