@@ -82,6 +82,7 @@ impl Plane {
         y: &AxisTable,
         transient: u32,
         record: u32,
+        exponent: u32,
     ) -> Result<Self, Failure> {
         Ok(Self {
             grid: Grid {
@@ -93,6 +94,7 @@ impl Plane {
             search: Search {
                 transient: transient.into(),
                 record: record.into(),
+                exponent: exponent.into(),
                 ..Search::default()
             },
         })
