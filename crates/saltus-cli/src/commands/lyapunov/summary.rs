@@ -59,18 +59,18 @@ fn sum(report: &Report) -> String {
     let sum = with_error(report.sum.per_period, report.sum.standard_error, "+-");
     let divergence = &report.divergence;
     let check = match divergence.difference {
-        None => format!("need not agree: {}", divergence.reason),
-        Some(off) if off.abs() <= AGREE => format!("as it must, to {:.0e}", off.abs()),
+        None => format!("not to be compared, {}", divergence.reason),
+        Some(off) if off.abs() <= AGREE => format!("the same to {:.0e}, as it must be", off.abs()),
         Some(off) => format!("wrong by {off:.1e}: a smaller solver.tolerance may help"),
     };
     format!(
-        "{sum} per period; mean divergence {:.6}, {check}",
+        "{sum} per period; mean divergence {:.6}: {check}",
         divergence.per_period
     )
 }
 
 fn spectrum(report: &Report) -> String {
-    let mut text = format!("\n{:<9}{:<31}per second\n", "exponent", "per period");
+    let mut text = format!("\n{:<12}{:<31}per second\n", "exponent", "per period");
     for (index, rate) in report.exponents.iter().enumerate() {
         let line = format!("{:>8}{}", index + 1, columns(rate));
         let _ = writeln!(text, "{}", line.trim_end());
