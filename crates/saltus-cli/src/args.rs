@@ -38,6 +38,9 @@ pub(crate) enum Command {
     /// Which long-term motion each first state leads to
     #[command(after_help = help::BASINS)]
     Basins(PlaneArgs),
+    /// Lyapunov exponents of the long-term motion, with their errors
+    #[command(after_help = help::LYAPUNOV)]
+    Lyapunov(WorkArgs),
 }
 
 /// The study a command works on.

@@ -145,14 +145,64 @@ Folder (--out):
 
 --resume as in `saltus map`.";
 
+/// Below `saltus lyapunov --help`.
+pub(crate) const LYAPUNOV: &str = "\
+The motion from [start] is run for lyapunov.transient forcing periods. From
+there on lyapunov.replicas pieces of it, each lyapunov.periods long, are run
+side by side with the tangent flow; a switch multiplies that by its saltation
+matrix. An exponent is the mean growth of a small deviation, natural logarithm,
+per forcing period. The drive keeps its phase: its exponent, 0, is not counted.
+All exponents of plate.inertia = \"full\" take hours where those of \"condensed\"
+take seconds; lyapunov.exponents = 1 asks for the largest alone.
+
+JSON (--json, and lyapunov.json in --out):
+  nature          what the motion is, by tests at a confidence of 0.999:
+    name          \"periodic\", \"quasi-periodic\", \"chaotic\", \"undecided\"
+    period        forcing periods; null if not periodic
+    confidence    that the test behind the name did not come out by chance; if
+                  undecided, that the largest exponent has the sign it shows
+    text          what the name means, or why there is none and what may help
+  exponents       the largest first, but for their errors:
+    per_period    per forcing period; null for -inf, a direction that shrinks
+                  to nothing in one period, as a relaxing leg at touch-down
+    standard_error
+                  from batches; null if the record is too short for one
+    per_second, per_second_error
+                  the same in 1/s
+  sum             of these exponents, likewise
+  divergence      of the flow, a check of the sum:
+    per_period    its time integral over a period, on average
+    must_agree    whether it must be the sum, and reason
+    difference    sum less divergence; null where they need not agree
+  kaplan_yorke    dimension of the attractor in the section: value and
+                  standard_error; null if more exponents or a longer record
+                  are needed
+  status          as in `saltus simulate`; status_text the same in a sentence
+  states          of the model, the most exponents possible
+  periods_measured
+                  of all replicas together
+  transient, periods, replicas, base_hz, period_s, version, study (as resolved)
+
+Folder (--out):
+  study.toml, lyapunov.json, convergence.csv (the exponents from the first
+  periods of the record, over how many these are) and the figure convergence as
+  SVG and PNG.
+
+Replicas that end early (chattering, ...) are told with what they measured, and
+exit code 1. Results are the same bits for any --threads.";
+
 #[cfg(test)]
 mod tests {
     #[test]
     fn lines_fit_a_terminal() {
-        for line in [super::SIMULATE, super::SWEEP, super::MAP, super::BASINS]
-            .iter()
-            .flat_map(|h| h.lines())
-        {
+        let texts = [
+            super::SIMULATE,
+            super::SWEEP,
+            super::MAP,
+            super::BASINS,
+            super::LYAPUNOV,
+        ];
+        for line in texts.iter().flat_map(|h| h.lines()) {
             assert!(line.chars().count() <= 80, "{line}");
         }
     }

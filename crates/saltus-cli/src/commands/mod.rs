@@ -4,6 +4,7 @@ mod basins;
 mod check;
 mod frequencies;
 mod init;
+mod lyapunov;
 mod map;
 mod plane;
 mod repeats;
@@ -16,6 +17,7 @@ use crate::args::{Command, OutputArgs, StudyArgs, ThreadArgs};
 use crate::exit::Failure;
 use crate::folder::Folder;
 use crate::{interrupt, output};
+use saltus::model::Model;
 use saltus::study::Control;
 use saltus_config::Study;
 use serde::Serialize;
@@ -34,6 +36,7 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::Sweep(args) => sweep::run(&args),
         Command::Map(args) => map::run(&args),
         Command::Basins(args) => basins::run(&args),
+        Command::Lyapunov(args) => lyapunov::run(&args),
     }
 }
 
@@ -76,6 +79,15 @@ fn tell(
         (true, _) => output::print_json(document),
         (false, true) => Ok(()),
         (false, false) => output::print(&text()),
+    }
+}
+
+/// Said in the titles of figures, because a figure leaves its folder.
+fn setting(study: &Study, model: &Model) -> String {
+    let hertz = model.scales().omega / std::f64::consts::TAU;
+    match study.jumper.as_slice() {
+        [one] => format!("ζ_h = {}, base {hertz:.4} Hz", one.damping_ratio),
+        _ => format!("base {hertz:.4} Hz"),
     }
 }
 

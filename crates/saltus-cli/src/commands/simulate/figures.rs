@@ -1,6 +1,7 @@
 //! The figures of a run: phase portrait and time history of each jumper.
 
 use super::{Run, flights};
+use crate::commands::setting;
 use crate::exit::Failure;
 use crate::folder::Folder;
 use crate::per_jumper::{PANELS, panel_title};
@@ -14,15 +15,6 @@ pub(super) fn write(folder: &mut Folder, run: &Run) -> Result<(), Failure> {
     folder.figure("history", &histories(run))
 }
 
-/// Said in each title, because a figure leaves its folder.
-fn setting(run: &Run) -> String {
-    let hertz = run.model.scales().omega / std::f64::consts::TAU;
-    match run.study.jumper.as_slice() {
-        [one] => format!("ζ_h = {}, base {hertz:.4} Hz", one.damping_ratio),
-        _ => format!("base {hertz:.4} Hz"),
-    }
-}
-
 /// What the time history covers; less than a period of it counts as one.
 fn covered(run: &Run) -> String {
     let points = run.trajectory.history.time.len();
@@ -33,7 +25,11 @@ fn covered(run: &Run) -> String {
 }
 
 fn portraits(run: &Run) -> Figure {
-    let title = format!("Phase portrait: {}, {}", setting(run), covered(run));
+    let title = format!(
+        "Phase portrait: {}, {}",
+        setting(run.study, &run.model),
+        covered(run)
+    );
     let shown = run.jumpers().min(PANELS);
     if shown == 1 {
         return Figure::new(portrait(run, 0, &title)).plot_size(620.0, 460.0);
@@ -68,7 +64,11 @@ fn portrait(run: &Run, jumper: usize, title: &str) -> Panel {
 }
 
 fn histories(run: &Run) -> Figure {
-    let title = format!("Time history: {}, {}", setting(run), covered(run));
+    let title = format!(
+        "Time history: {}, {}",
+        setting(run.study, &run.model),
+        covered(run)
+    );
     let shown = run.jumpers().min(PANELS);
     let mut panels: Vec<Panel> = Vec::new();
     for jumper in 0..shown {
@@ -117,7 +117,10 @@ fn amplitudes(run: &Run) -> Figure {
     let kept = section.get(skipped..).unwrap_or_default();
     let periods: Vec<f64> = (1..=kept.len()).map(|i| (skipped + i) as f64).collect();
     let curves = Curves::new(
-        format!("Empty plate, once per forcing period: {}", setting(run)),
+        format!(
+            "Empty plate, once per forcing period: {}",
+            setting(run.study, &run.model)
+        ),
         Axis::new("Forcing period (-)"),
         Axis::new("Amplitude r/h (-)"),
     );
