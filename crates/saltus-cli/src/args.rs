@@ -38,6 +38,9 @@ pub(crate) enum Command {
     /// Which long-term motion each first state leads to
     #[command(after_help = help::BASINS)]
     Basins(PlaneArgs),
+    /// All coexisting long-term motions, their basins and hysteresis while one parameter changes
+    #[command(after_help = help::ATTRACTORS)]
+    Attractors(WorkArgs),
 }
 
 /// The study a command works on.

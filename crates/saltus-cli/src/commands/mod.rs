@@ -1,10 +1,12 @@
 //! One file per command.
 
+mod attractors;
 mod basins;
 mod check;
 mod frequencies;
 mod init;
 mod map;
+mod models;
 mod plane;
 mod repeats;
 mod reproduce;
@@ -34,6 +36,7 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::Sweep(args) => sweep::run(&args),
         Command::Map(args) => map::run(&args),
         Command::Basins(args) => basins::run(&args),
+        Command::Attractors(args) => attractors::run(&args),
     }
 }
 
