@@ -19,7 +19,7 @@ use crate::exit::Failure;
 use crate::folder::Folder;
 use crate::{interrupt, output};
 use saltus::study::Control;
-use saltus_config::Study;
+use saltus_config::{Parameter, Study};
 use serde::Serialize;
 use std::io;
 use std::path::Path;
@@ -80,6 +80,16 @@ fn tell(
         (false, true) => Ok(()),
         (false, false) => output::print(&text()),
     }
+}
+
+/// What a title says of the base, because a figure leaves its folder, unless that is what changes.
+fn base_in_title(study: &Study, parameter: Option<&Parameter>) -> String {
+    let changes = parameter.is_some_and(|p| p.key().starts_with("base.frequency"));
+    let omega = study.base().omega(&study.plate(), &study.jumpers()).ok();
+    let omega = omega.filter(|_| !changes);
+    omega.map_or(String::new(), |omega| {
+        format!("base {:.4} Hz, ", omega / std::f64::consts::TAU)
+    })
 }
 
 /// As the first word of a label.

@@ -1,9 +1,10 @@
 //! The figure of attractors: sections in one colour for each, and below it the shares of their basins.
 
 use super::Run;
-use super::report::{Attractor, Report, name};
-use crate::commands::capitalized;
+use super::report::{Attractor, Report, Share, name};
+use crate::commands::{base_in_title, capitalized};
 use crate::per_jumper::{PANELS, panel_title};
+use saltus::study::Fraction;
 use saltus_config::Parameter;
 use saltus_results::{Axis, Cloud, Colour, Curves, Figure, Panel};
 use std::cmp::Reverse;
@@ -15,12 +16,15 @@ pub(super) fn attractors(run: &Run, report: &Report) -> Figure {
         Some(parameter) => {
             let clouds = (0..shown).map(|i| cloud(run, parameter, &series, i).into());
             clouds
-                .chain([shares(run, parameter, &series).into()])
+                .chain([shares(run, parameter, &series, report).into()])
                 .collect()
         }
         None => (0..shown).map(|i| plane(run, &series, i).into()).collect(),
     };
-    let title = format!("Attractors: {} quasi-random first states", report.starts);
+    let base = base_in_title(run.study, run.parameter.as_ref());
+    let each = run.parameter.as_ref().map_or("", |_| " per value");
+    let starts = report.starts;
+    let title = format!("Attractors: {base}{starts} quasi-random first states{each}");
     match <[Panel; 1]>::try_from(panels) {
         Ok([only]) => Figure::new(only).title(title),
         Err(panels) => Figure::grid(1, panels).title(title),
@@ -31,18 +35,18 @@ pub(super) fn attractors(run: &Run, report: &Report) -> Figure {
 struct Series<'a> {
     label: String,
     colour: Colour,
-    /// With the value of the parameter.
-    points: Vec<(f64, &'a Attractor)>,
+    /// With the places of their values.
+    points: Vec<(usize, &'a Attractor)>,
 }
 
 impl<'a> Series<'a> {
     /// Those that most first states led to have colours of their own.
     fn all(run: &Run, report: &'a Report) -> Vec<Self> {
         let count = report.attractors.len();
-        let mut its: Vec<Vec<(f64, &Attractor)>> = vec![Vec::new(); count];
-        for (row, found) in report.rows.iter().zip(&run.found.rows) {
+        let mut its: Vec<Vec<(usize, &Attractor)>> = vec![Vec::new(); count];
+        for (place, row) in report.rows.iter().enumerate() {
             for one in &row.attractors {
-                its[one.number - 1].push((found.value, one));
+                its[one.number - 1].push((place, one));
             }
         }
         let starts = |identity: &usize| its[*identity].iter().map(|(_, one)| one.drawn.starts);
@@ -65,18 +69,32 @@ impl<'a> Series<'a> {
         all
     }
 
-    /// All samples of a jumper with the values at which they are.
-    fn samples(&self, jumper: usize) -> impl Iterator<Item = (f64, [f64; 2])> {
-        self.points.iter().flat_map(move |(value, one)| {
+    /// Value, low and high of its share at each of `values` values, of so many starts; not finite where it is not.
+    fn shares(&self, values: usize, of: u64) -> Vec<[f64; 3]> {
+        let mut counts = vec![None; values];
+        for &(place, one) in &self.points {
+            *counts[place].get_or_insert(0) += one.drawn.starts;
+        }
+        let share = |count: Option<u64>| {
+            count.map_or([f64::NAN; 3], |count| {
+                Share::from(Fraction { count, of }).share
+            })
+        };
+        counts.into_iter().map(share).collect()
+    }
+
+    /// All samples of a jumper with the places of their values.
+    fn samples(&self, jumper: usize) -> impl Iterator<Item = (usize, [f64; 2])> {
+        self.points.iter().flat_map(move |(place, one)| {
             let (z, v) = (one.z.as_slice().get(jumper), one.v.as_slice().get(jumper));
             let samples = z.into_iter().flatten().zip(v.into_iter().flatten());
-            samples.map(|(&z, &v)| (*value, [z, v]))
+            samples.map(|(&z, &v)| (*place, [z, v]))
         })
     }
 }
 
 /// With its share where it has but one.
-fn label(run: &Run, identity: usize, its: &[(f64, &Attractor)]) -> String {
+fn label(run: &Run, identity: usize, its: &[(usize, &Attractor)]) -> String {
     match (its, &run.parameter) {
         ([(_, one)], None) => {
             let [share, low, high] = one.drawn.share.map(|share| 100.0 * share);
@@ -106,29 +124,60 @@ fn cloud(run: &Run, parameter: &Parameter, series: &[Series], jumper: usize) -> 
         axis(run, parameter),
         Axis::new("Height z/η at cos Ωt = 1 (-)"),
     );
-    series.iter().fold(cloud.apart(), |cloud, one| {
-        let points = one.samples(jumper).map(|(value, [z, _])| (value, z));
-        let (values, heights): (Vec<f64>, Vec<f64>) = points.unzip();
-        cloud.series(&one.label, values, heights).colour(one.colour)
-    })
+    series
+        .iter()
+        .fold(cloud.apart_over(run.found.rows.len()), |cloud, one| {
+            let points = one
+                .samples(jumper)
+                .map(|(place, [z, _])| (run.found.rows[place].value, z));
+            let (values, heights): (Vec<f64>, Vec<f64>) = points.unzip();
+            cloud.series(&one.label, values, heights).colour(one.colour)
+        })
 }
 
-fn shares(run: &Run, parameter: &Parameter, series: &[Series]) -> Curves {
+/// Values whose dots and bars have room beside each other.
+const ROOMY: usize = 120;
+
+fn shares(run: &Run, parameter: &Parameter, series: &[Series], report: &Report) -> Curves {
     let plot = Curves::new(
         "",
         axis(run, parameter),
         Axis::new("Part of the first states (-)").range(-0.02, 1.02),
     );
+    let values: Vec<f64> = run.found.rows.iter().map(|row| row.value).collect();
     let plot = series.iter().fold(plot, |plot, one| {
-        let values: Vec<f64> = one.points.iter().map(|(value, _)| *value).collect();
-        let part = |part: usize| -> Vec<f64> {
-            let shares = one.points.iter().map(|(_, one)| one.drawn.share);
-            shares.map(|share| share[part]).collect()
-        };
-        plot.dots(&one.label, values, part(0))
-            .colour(one.colour)
-            .bars("95 % confidence interval", part(1), part(2))
+        let parts = one.shares(values.len(), report.starts.into());
+        let part = |part: usize| parts.iter().map(|share| share[part]).collect::<Vec<f64>>();
+        let interval = "95 % confidence interval";
+        match values.len() > ROOMY {
+            true => plot
+                .line(&one.label, &values[..], part(0))
+                .colour(one.colour)
+                .band(interval, part(1), part(2)),
+            false => plot
+                .dots(&one.label, &values[..], part(0))
+                .colour(one.colour)
+                .bars(interval, part(1), part(2)),
+        }
     });
+    hysteresis(run, without_attractor(plot, report))
+}
+
+/// Where some first states led to no attractor, how many.
+fn without_attractor(plot: Curves, report: &Report) -> Curves {
+    let none = report.rows.iter().filter_map(|row| {
+        let share = row.undecided.share[0] + row.lost.share[0];
+        Some((row.value?, share)).filter(|_| share > 0.0)
+    });
+    let (values, none): (Vec<f64>, Vec<f64>) = none.unzip();
+    if none.is_empty() {
+        return plot;
+    }
+    plot.dots("Undecided or lost", values, none)
+        .colour(Colour::UNDECIDED)
+}
+
+fn hysteresis(run: &Run, plot: Curves) -> Curves {
     if run.found.loops.is_empty() {
         return plot;
     }

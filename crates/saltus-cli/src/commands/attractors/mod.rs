@@ -15,6 +15,7 @@ use crate::{interrupt, progress};
 use report::Report;
 use saltus::study::{Kind, Lineages, Row, Search, Starts};
 use saltus_config::{Parameter, Study};
+use std::sync::atomic::Ordering;
 
 /// What was asked and found.
 struct Run<'a> {
@@ -50,7 +51,7 @@ pub(super) fn run(args: &WorkArgs) -> Result<(), Failure> {
         study: &study,
         parameter,
         found,
-        periods_run: control.done.load(std::sync::atomic::Ordering::Relaxed),
+        periods_run: control.done.load(Ordering::Relaxed),
     };
     let report = Report::new(&run);
     if let Some(folder) = folder {
@@ -85,8 +86,8 @@ fn plan(study: &Study) -> (Starts, Search) {
     (starts, search)
 }
 
-/// First states of one jumper, at all values together: what each leads to is kept until all are known, and
-/// a section of 256 samples takes 4 kB.
+/// First states of one jumper, at all values together: what each leads to is kept until all are known, some
+/// 1 kB of a cycle and up to 5 kB of chaos.
 const MOST: usize = 1_000_000;
 
 fn refuse_if_too_many(study: &Study, values: usize) -> Result<(), Failure> {

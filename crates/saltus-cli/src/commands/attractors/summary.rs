@@ -21,7 +21,7 @@ pub(super) fn text(run: &Run, report: &Report) -> String {
         Some(parameter) => {
             let values = run.found.rows.iter().map(|row| row.value);
             let ends = (values.clone().next(), values.clone().last());
-            let (from, to) = (ends.0.unwrap_or(f64::NAN), ends.1.unwrap_or(f64::NAN));
+            let [from, to] = [ends.0, ends.1].map(|end| short(end.unwrap_or(f64::NAN)));
             let _ = write!(
                 text,
                 ", at each of {} values of {} from {from} to {to}",
@@ -69,16 +69,13 @@ fn percent(Share { share, .. }: Share) -> String {
 
 fn span(run: &Run, report: &Report, identity: usize) -> String {
     let span = &report.attractors[identity];
-    let (first, last) = (
-        span.first.unwrap_or(f64::NAN),
-        span.last.unwrap_or(f64::NAN),
-    );
+    let [first, last] = [span.first, span.last].map(|end| short(end.unwrap_or(f64::NAN)));
     let end = |what: &str, end: &Option<End>| {
         end.as_ref().map_or(String::new(), |end| {
             let to = end
                 .to
                 .map_or(String::new(), |to| format!(", beyond on {to}"));
-            let [low, high] = end.between;
+            let [low, high] = end.between.map(short);
             format!("; {what} between {low} and {high}{to}")
         })
     };
@@ -93,14 +90,15 @@ fn span(run: &Run, report: &Report, identity: usize) -> String {
 
 fn in_words_loop(one: &Loop) -> String {
     let jump = |jump: Option<[f64; 2]>| {
-        jump.map_or("without a jump".to_owned(), |[low, high]| {
+        jump.map_or("without a jump".to_owned(), |jump| {
+            let [low, high] = jump.map(short);
             format!("jumps between {low} and {high}")
         })
     };
     format!(
         "hysteresis from {} to {}: on {} ({}) upwards, {}; on {} ({}) downwards, {}",
-        one.from,
-        one.to,
+        short(one.from),
+        short(one.to),
         one.up,
         name(one.period_up),
         jump(one.jump_up),
@@ -110,24 +108,24 @@ fn in_words_loop(one: &Loop) -> String {
     )
 }
 
+/// Six digits of a number: 0.1 + 0.2 is 0.3 to people.
+fn short(x: f64) -> f64 {
+    format!("{x:.5e}").parse().unwrap_or(x)
+}
+
 /// What was not decided, and what was not seen.
 fn doubts(report: &Report) -> String {
     let mut text = String::new();
-    let most = |of: fn(&Row) -> Share| {
-        let shares = report.rows.iter().map(|row| of(row).share[0]);
-        shares.fold(0.0, f64::max)
-    };
-    for (what, share) in [
-        ("undecided", most(|row| row.undecided)),
-        ("lost", most(|row| row.lost)),
-    ] {
-        if share > 0.0 {
-            let most = if report.rows.len() > 1 {
-                "at most "
-            } else {
-                ""
-            };
-            let _ = writeln!(text, "  {most}{:.1} % {what}", 100.0 * share);
+    let shares: [(&str, fn(&Row) -> Share); 2] =
+        [("undecided", |row| row.undecided), ("lost", |row| row.lost)];
+    for (what, of) in shares {
+        let all = report.rows.iter().map(|row| (of(row).share[0], row.value));
+        let most = all.max_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((share, value)) = most.filter(|(share, _)| *share > 0.0) {
+            let place = value.map_or(String::new(), |value| {
+                format!(" at {}, the most at any value", short(value))
+            });
+            let _ = writeln!(text, "  {:.1} % {what}{place}", 100.0 * share);
         }
     }
     let failed = report
