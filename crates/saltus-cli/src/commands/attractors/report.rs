@@ -4,7 +4,7 @@ use super::section::{self, Section};
 use super::{Loss, Run};
 use crate::per_jumper::PerJumper;
 use saltus::study::{Counted, Fraction, Hysteresis, Identity, Kind, Lost, Turn};
-use saltus_config::Study;
+use saltus_config::{Parameter, Study};
 use serde::Serialize;
 
 /// The document; `saltus attractors --help` explains each key.
@@ -104,9 +104,9 @@ impl<'a> Report<'a> {
         let identities = found.identities.iter().enumerate();
         Self {
             version: env!("CARGO_PKG_VERSION"),
-            parameter: parameter.map(|p| p.key()),
-            unit: parameter.map(|p| p.unit()),
-            label: parameter.map(|p| p.label()),
+            parameter: parameter.map(Parameter::key),
+            unit: parameter.map(Parameter::unit),
+            label: parameter.map(Parameter::label),
             starts,
             unseen: Fraction::unseen(starts.into()),
             rows: rows

@@ -19,14 +19,15 @@ pub(super) fn text(run: &Run, report: &Report) -> String {
             vec![all.map(in_words).collect()]
         }
         Some(parameter) => {
-            let values = run.found.rows.iter().map(|row| row.value);
-            let ends = (values.clone().next(), values.clone().last());
-            let [from, to] = [ends.0, ends.1].map(|end| short(end.unwrap_or(f64::NAN)));
+            let values = run.found.rows.iter().map(|row| short(row.value));
+            let mut ends = values.clone();
             let _ = write!(
                 text,
-                ", at each of {} values of {} from {from} to {to}",
+                ", at each of {} values of {} from {} to {}",
                 values.count(),
-                parameter.label()
+                parameter.label(),
+                ends.next().unwrap_or(f64::NAN),
+                ends.next_back().unwrap_or(f64::NAN)
             );
             let spans: Vec<String> = (0..report.attractors.len())
                 .map(|identity| span(run, report, identity))
@@ -113,21 +114,24 @@ fn short(x: f64) -> f64 {
     format!("{x:.5e}").parse().unwrap_or(x)
 }
 
+/// The largest share of what came to no attractor, and where, if there is any.
+fn worst(what: &str, report: &Report, of: fn(&Row) -> Share) -> String {
+    let all = report.rows.iter().map(|row| (of(row).share[0], row.value));
+    let most = all.max_by(|a, b| a.0.total_cmp(&b.0));
+    let some = most.filter(|(share, _)| *share > 0.0);
+    some.map_or(String::new(), |(share, value)| {
+        let place = value.map_or(String::new(), |value| {
+            format!(" at {}, the most at any value", short(value))
+        });
+        format!("  {:.1} % {what}{place}\n", 100.0 * share)
+    })
+}
+
 /// What was not decided, and what was not seen.
 fn doubts(report: &Report) -> String {
     let mut text = String::new();
-    let shares: [(&str, fn(&Row) -> Share); 2] =
-        [("undecided", |row| row.undecided), ("lost", |row| row.lost)];
-    for (what, of) in shares {
-        let all = report.rows.iter().map(|row| (of(row).share[0], row.value));
-        let most = all.max_by(|a, b| a.0.total_cmp(&b.0));
-        if let Some((share, value)) = most.filter(|(share, _)| *share > 0.0) {
-            let place = value.map_or(String::new(), |value| {
-                format!(" at {}, the most at any value", short(value))
-            });
-            let _ = writeln!(text, "  {:.1} % {what}{place}", 100.0 * share);
-        }
-    }
+    text += &worst("undecided", report, |row| row.undecided);
+    text += &worst("lost", report, |row| row.lost);
     let failed = report
         .rows
         .iter()

@@ -4,13 +4,14 @@ use super::Run;
 use super::report::{Attractor, Report, Row};
 use crate::exit::Failure;
 use crate::folder::Folder;
+use saltus_config::Parameter;
 use saltus_results::Value;
 
 pub(super) fn write(folder: &mut Folder, run: &Run, report: &Report) -> Result<(), Failure> {
-    let value = run.parameter.as_ref().map_or_else(
-        || "of no parameter: empty".to_owned(),
-        |parameter| parameter.label(),
-    );
+    let value = run
+        .parameter
+        .as_ref()
+        .map_or_else(|| "of no parameter: empty".to_owned(), Parameter::label);
     let shared = [
         ("saltus", env!("CARGO_PKG_VERSION")),
         ("study", "study.toml"),
