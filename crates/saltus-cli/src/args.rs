@@ -41,6 +41,9 @@ pub(crate) enum Command {
     /// Lyapunov exponents of the long-term motion, with their errors
     #[command(after_help = help::LYAPUNOV)]
     Lyapunov(WorkArgs),
+    /// All coexisting long-term motions, their basins and hysteresis while one parameter changes
+    #[command(after_help = help::ATTRACTORS)]
+    Attractors(WorkArgs),
 }
 
 /// The study a command works on.

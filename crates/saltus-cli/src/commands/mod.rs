@@ -1,11 +1,13 @@
 //! One file per command.
 
+mod attractors;
 mod basins;
 mod check;
 mod frequencies;
 mod init;
 mod lyapunov;
 mod map;
+mod models;
 mod plane;
 mod repeats;
 mod reproduce;
@@ -19,7 +21,7 @@ use crate::folder::Folder;
 use crate::{interrupt, output};
 use saltus::model::Model;
 use saltus::study::Control;
-use saltus_config::Study;
+use saltus_config::{Parameter, Study};
 use serde::Serialize;
 use std::io;
 use std::path::Path;
@@ -37,6 +39,7 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::Map(args) => map::run(&args),
         Command::Basins(args) => basins::run(&args),
         Command::Lyapunov(args) => lyapunov::run(&args),
+        Command::Attractors(args) => attractors::run(&args),
     }
 }
 
@@ -89,6 +92,16 @@ fn setting(study: &Study, model: &Model) -> String {
         [one] => format!("ζ_h = {}, base {hertz:.4} Hz", one.damping_ratio),
         _ => format!("base {hertz:.4} Hz"),
     }
+}
+
+/// What a title says of the base, because a figure leaves its folder, unless that is what changes.
+fn base_in_title(study: &Study, parameter: Option<&Parameter>) -> String {
+    let changes = parameter.is_some_and(|p| p.key().starts_with("base.frequency"));
+    let omega = study.base().omega(&study.plate(), &study.jumpers()).ok();
+    let omega = omega.filter(|_| !changes);
+    omega.map_or(String::new(), |omega| {
+        format!("base {:.4} Hz, ", omega / std::f64::consts::TAU)
+    })
 }
 
 /// As the first word of a label.

@@ -19,8 +19,7 @@ use serde::Serialize;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::capitalized;
-pub(super) use codec::Cell;
-use codec::Loss;
+pub(super) use codec::{Cell, Loss};
 pub(super) use dataset::dataset;
 pub(super) use figure::layers_figure;
 pub(super) use layers::{FirstFailure, Layers, Span, Status, Tally, span};

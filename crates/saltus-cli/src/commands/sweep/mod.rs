@@ -1,16 +1,15 @@
 //! `saltus sweep`: long-term motion while one parameter changes.
 
 mod figures;
-mod models;
 mod report;
 mod summary;
 mod tables;
 
+use super::models::Models;
 use crate::args::WorkArgs;
 use crate::exit::Failure;
 use crate::folder::Folder;
 use crate::{interrupt, progress, status};
-use models::Models;
 use report::Report;
 use saltus::hybrid::Status;
 use saltus::study::{Pass, Sweep, SweepRow};
