@@ -6,7 +6,7 @@
 use std::f64::consts::{PI, TAU};
 
 use saltus_hybrid::{System, SystemBuilder, Transition};
-use saltus_orbits::{Lost, NewtonOptions, NotFound, Orbit, Place, find_orbit};
+use saltus_orbits::{End, Lost, NewtonOptions, NotFound, Orbit, Place, find_orbit};
 
 use crate::machine::{along, both, curve, kinds, map, orbit, place};
 
@@ -71,6 +71,19 @@ fn a_ball_that_bounces_once_a_period_folds_and_flips_where_formulas_say() {
     assert_eq!([other.parameter, stable.parameter], [1.2, 1.2]);
     assert!((bounce(&stable.orbit) - bounces(1.2)).abs() < 1e-10);
     assert!((bounce(&other.orbit) - (PI - bounces(1.2))).abs() < 1e-10);
+}
+
+#[test]
+#[ignore = "a jump at the sampling instant tears the branch: it ends as one that bends too much"]
+fn a_bounce_may_wander_through_the_sampling_instant() {
+    // The bounce is at t = 0 for A = 0.7.
+    let phase = PI - (speed(0.8) / 0.7).asin();
+    let map = map(2, |p: &[f64]| ball([p[0], p[1]], phase));
+    let at = PI - (speed(0.8) / 0.6).asin();
+    let start = orbit(&map, &[0.6, 0.8], after_bounce(0.6, at, phase - at));
+    let branch = both(&map, &start, &along(0, 0.5, 1.0));
+    assert_eq!(branch.ends, [End::RangeEnd, End::RangeEnd]);
+    assert!(branch.specials.is_empty());
 }
 
 #[test]

@@ -4,7 +4,7 @@ use faer::{Mat, c64};
 use saltus_hybrid::{System, SystemBuilder};
 use saltus_orbits::{Family, Shot};
 
-use crate::machine::{along, both, map, orbit, place};
+use crate::machine::{along, both, kinds, map, orbit, place};
 
 /// Harmonics to each side: the first one left out of a solution is below 1e-30 at q = 5.
 const HARMONICS: usize = 24;
@@ -92,4 +92,13 @@ fn rest_loses_and_regains_stability_at_the_eigenvalues_of_hills_matrix() {
         }
     }
     assert_eq!(all.count(), 5);
+}
+
+#[test]
+#[ignore = "rounding of pairs on the unit circle is taken for Neimark-Sacker points"]
+fn rest_without_damping_has_no_neimark_sacker_points() {
+    let map = map(2, |p: &[f64]| mathieu(0.0, 5.0, p[0]));
+    let start = orbit(&map, &[0.0], place(&[], &[0.0, 0.0]));
+    let branch = both(&map, &start, &along(0, -3.0, 12.0));
+    assert_eq!(kinds(&branch), ["PD", "BP", "BP", "PD", "PD"]);
 }
