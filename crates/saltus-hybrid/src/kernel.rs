@@ -90,7 +90,8 @@ impl Kernel {
     /// An idle lane computes with zeros, which disturb nobody.
     pub(crate) fn clear(&mut self, slot: usize) {
         self.stream.iter_mut().for_each(|c| c.0[slot] = 0.0);
-        self.series.cells().for_each(|c| c.0[slot] = 0.0);
+        let nodes = self.structure.nodes;
+        self.series.cells(nodes).for_each(|c| c.0[slot] = 0.0);
         self.left.0[slot] = 0.0;
         self.wary[slot] = false;
         for guard in &mut self.guards {

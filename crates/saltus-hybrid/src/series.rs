@@ -21,8 +21,8 @@ pub(crate) struct Series<C> {
     scratch: Vec<C>,
 }
 
-/// Nodes of a small program.
-const FEW: usize = 256;
+/// Nodes of a small program, such as four modes and a person with all their tangents.
+const FEW: usize = 1024;
 
 /// Length of the table of nodes: one of two, known to the compiler where it is read, so that an index
 /// cut to that range needs no check.
@@ -82,9 +82,9 @@ impl<C: Copy + Default> Series<C> {
         &self.now
     }
 
-    /// Every stored coefficient, to be cleared.
-    pub(crate) fn cells(&mut self) -> impl Iterator<Item = &mut C> {
-        self.now.iter_mut().chain(&mut self.kept)
+    /// Every stored coefficient of a program of so many nodes, to be cleared.
+    pub(crate) fn cells(&mut self, nodes: usize) -> impl Iterator<Item = &mut C> {
+        self.now[..nodes].iter_mut().chain(&mut self.kept)
     }
 
     /// Puts the values of the states, given in their first slots, everywhere.

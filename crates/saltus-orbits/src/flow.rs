@@ -39,45 +39,40 @@ where
         threads: usize,
         stop: &'a AtomicBool,
     ) -> Self {
+        // Asked for once: the answer takes as long as a short orbit.
+        let available = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         Self {
             system_at,
             dimension,
             options,
-            threads,
+            threads: if threads == 0 { available() } else { threads },
             stop,
         }
     }
 
-    /// The systems of the shots; equal parameters make one.
-    fn systems(&self, shots: &[Shot<'_>]) -> Vec<Result<System, String>> {
-        let mut systems: Vec<Result<System, String>> = Vec::with_capacity(shots.len());
+    /// The different systems of the shots, and which of them each shot is of.
+    fn systems(&self, shots: &[Shot<'_>]) -> (Vec<Made>, Vec<usize>) {
+        let mut systems: Vec<Made> = Vec::new();
+        let mut first: Vec<usize> = Vec::new();
+        let mut of = Vec::with_capacity(shots.len());
         for (i, shot) in shots.iter().enumerate() {
-            let same = |earlier: &Shot<'_>| earlier.parameters == shot.parameters;
-            let system = match shots[..i].iter().position(same) {
-                Some(known) => systems[known].clone(),
-                None => (self.system_at)(shot.parameters),
-            };
-            let first = systems.iter().flatten().next();
-            systems.push(system.map(|system| match first {
-                Some(first) => system.sharing(first),
-                None => system,
+            let same = |&earlier: &usize| shots[earlier].parameters == shot.parameters;
+            of.push(first.iter().position(same).unwrap_or_else(|| {
+                let system = (self.system_at)(shot.parameters).map_err(Lost::NoMap);
+                systems.push(system.map(|system| sharing(system, &systems)));
+                first.push(i);
+                systems.len() - 1
             }));
         }
-        systems
+        (systems, of)
     }
 
     /// Columns in a trajectory, for `shots` whole derivatives: the work of a register of trajectories
     /// grows as 1 + 2 k with their columns, the number of such registers falls as 1/k.
     fn columns(&self, shots: usize) -> usize {
-        let available = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-        let threads = if self.threads == 0 {
-            available()
-        } else {
-            self.threads
-        };
         let cost = |k: &usize| {
             let trajectories = shots * self.dimension.div_ceil(*k);
-            trajectories.div_ceil(LANES * threads) * (1 + 2 * k)
+            trajectories.div_ceil(LANES * self.threads) * (1 + 2 * k)
         };
         (1..=self.dimension).min_by_key(cost).unwrap_or(1)
     }
@@ -92,23 +87,22 @@ where
     }
 
     fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
-        let systems = self.systems(shots);
+        let (systems, of) = self.systems(shots);
         let mut out = vec![Err(Lost::Interrupted); shots.len()];
         // Systems with and without tangents have different programs and cannot share a run.
         for derivative in [false, true] {
-            let asked = shots.iter().filter(|shot| shot.derivative == derivative);
-            let width = if derivative {
-                self.columns(asked.count())
-            } else {
-                0
+            let asked = || (0..shots.len()).filter(|&i| shots[i].derivative == derivative);
+            let width = match asked().count() {
+                0 => continue,
+                count if derivative => self.columns(count),
+                _ => 0,
             };
+            let systems = widened(&systems, width);
             let mut flights = Vec::new();
-            for (index, (shot, system)) in shots.iter().zip(&systems).enumerate() {
-                if shot.derivative == derivative {
-                    match self.flights(index, shot, system, width) {
-                        Ok(more) => flights.extend(more),
-                        Err(lost) => out[index] = Err(lost),
-                    }
+            for index in asked() {
+                match self.flights(index, &shots[index], &systems[of[index]], width) {
+                    Ok(more) => flights.extend(more),
+                    Err(lost) => out[index] = Err(lost),
                 }
             }
             match integrate_all(&self.options, flights, self.threads, self.stop) {
@@ -127,11 +121,11 @@ impl<F> Stroboscopic<'_, F> {
         &self,
         index: usize,
         shot: &Shot<'_>,
-        system: &Result<System, String>,
+        system: &Made,
         width: usize,
     ) -> Result<Vec<Flight>, Lost> {
         let n = self.dimension;
-        let mut system = system.clone().map_err(Lost::NoMap)?;
+        let system = system.as_ref().map_err(Lost::clone)?;
         let (states, units) = (shot.start.x.len(), shot.start.modes.len());
         if states != n || units != system.unit_count() {
             let what = format!(
@@ -139,10 +133,6 @@ impl<F> Stroboscopic<'_, F> {
                 system.unit_count()
             );
             return Err(Lost::NoMap(what));
-        }
-        if width > 0 {
-            let wide = system.with_tangents(width);
-            system = wide.map_err(|error| Lost::NoMap(error.to_string()))?;
         }
         let firsts = (0..n).step_by(width.max(1));
         let flight = |first: usize| {
@@ -168,6 +158,33 @@ impl<F> Stroboscopic<'_, F> {
         let count = if width > 0 { n.div_ceil(width) } else { 1 };
         Ok(firsts.take(count).map(flight).collect())
     }
+}
+
+/// A system, or why there is none.
+type Made = Result<System, Lost>;
+
+/// The system with the program of the first one that is there: comparing is cheap then.
+fn sharing(system: System, others: &[Made]) -> System {
+    match others.iter().flatten().next() {
+        Some(first) => system.sharing(first),
+        None => system,
+    }
+}
+
+/// The systems with so many columns of their tangents.
+fn widened(systems: &[Made], width: usize) -> Vec<Made> {
+    if width == 0 {
+        return systems.to_vec();
+    }
+    let mut wide: Vec<Made> = Vec::with_capacity(systems.len());
+    for system in systems {
+        let made = system.as_ref().map_err(Lost::clone).and_then(|system| {
+            let tangents = system.with_tangents(width);
+            tangents.map_err(|error| Lost::NoMap(error.to_string()))
+        });
+        wide.push(made.map(|system| sharing(system, &wide)));
+    }
+    wide
 }
 
 /// One trajectory: an image and some columns of its derivative.

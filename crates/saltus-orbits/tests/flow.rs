@@ -133,3 +133,29 @@ fn what_cannot_be_run_is_told_and_disturbs_no_other() {
         Err(Lost::Interrupted)
     );
 }
+
+#[test]
+fn differences_give_the_derivative_that_the_flow_has() {
+    let stop = AtomicBool::new(false);
+    let system = |p: &[f64]| Ok(testing::forced_oscillator(p[0], 1.0, 1.1, 0.3));
+    let map = Stroboscopic::new(system, 2, options(), 1, &stop);
+    let (start, parameters) = (at(0.1, 0.4), [0.05]);
+    let shot = |derivative| Shot {
+        parameters: &parameters,
+        start: &start,
+        derivative,
+    };
+    let exact = map.images(&[shot(true)]).remove(0).unwrap();
+    let differences = saltus_orbits::Differences::new(&map, 1e-4);
+    let both = differences.images(&[shot(false), shot(true), shot(true)]);
+    let plain = both[0].as_ref().unwrap();
+    assert_eq!((&plain.place, &plain.derivative), (&exact.place, &None));
+    for image in &both[1..] {
+        let (a, b) = (
+            image.as_ref().unwrap().derivative.as_ref(),
+            exact.derivative.as_ref(),
+        );
+        let difference = a.unwrap() - b.unwrap();
+        assert!(difference.norm_max() < 1e-10); // a linear flow: only rounding over 1e-4
+    }
+}

@@ -15,6 +15,7 @@ mod orbits;
 pub mod paper;
 mod peaks;
 mod recurrence;
+mod second;
 mod settle;
 mod starts;
 mod sweep;
@@ -36,6 +37,7 @@ pub use orbits::{
 };
 pub use recurrence::recurrence;
 pub use saltus_orbits::MAX_PERIOD;
+pub use second::second_opinion;
 pub use settle::{Settled, settle};
 pub use starts::Starts;
 pub use sweep::{Pass, Sweep, SweepRow, sweep, sweep_many};

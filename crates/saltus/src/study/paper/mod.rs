@@ -1,12 +1,14 @@
 //! The paper, complete: every figure and statement of Dias & Del Prado, with our numbers beside it,
 //! and what the paper does not show: other contact laws, full against condensed, the misprints' size.
 
+mod branches;
 mod cases;
 mod diagrams;
 mod facts;
 mod inertia;
 mod misprints;
 
+pub use branches::{Drawn, PanelBranches, Transition, panel_branches};
 pub use cases::{Case, CaseResult, cases, run_cases};
 pub use diagrams::{Coexistence, Diagram, Regime, coexistence, diagrams, regimes};
 pub use facts::{Fact, Verdict, facts};
@@ -38,6 +40,14 @@ pub struct Effort {
     pub full_periods: (u64, u64),
     /// Periods an exponent is averaged over.
     pub exponent_periods: u64,
+    /// Damping ratios and starts of the census of attractors.
+    pub census_values: usize,
+    /// Starts at each.
+    pub census_starts: usize,
+    /// Doublings of the period whose branches are followed over the whole range.
+    pub doublings: usize,
+    /// Longest period whose doubling is sought in the cascade.
+    pub cascade_period: usize,
 }
 
 impl Effort {
@@ -52,6 +62,10 @@ impl Effort {
             full_values: 17,
             full_periods: (150, 50),
             exponent_periods: 5000,
+            census_values: 81,
+            census_starts: 32,
+            doublings: 3,
+            cascade_period: 64,
         }
     }
 
@@ -66,6 +80,10 @@ impl Effort {
             full_values: 5,
             full_periods: (40, 20),
             exponent_periods: 500,
+            census_values: 17,
+            census_starts: 8,
+            doublings: 1,
+            cascade_period: 4,
         }
     }
 }

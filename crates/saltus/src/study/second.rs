@@ -1,0 +1,152 @@
+//! Special points by a second method, which shares neither the arclength nor the tangent flow with the first.
+//!
+//! Orbits are solved for at given values of the parameter, with the derivative of the map by differences of
+//! plain trajectories, and the special point is where their critical multiplier passes the unit circle: found by
+//! the secant method for period doubling, Neimark-Sacker and branch points. A fold has orbits on one side only,
+//! where the square of the multiplier's distance from 1 falls linearly to zero: it is extrapolated. A grazing is where
+//! the number of switches changes, by bisection.
+
+use saltus_orbits::{
+    Crossing, Differences, Family, Multiplier, NewtonOptions, Orbit, Place, Special, SpecialKind,
+    find_orbit,
+};
+
+/// Step of the differences: 1e-12 of curvature, and 1e-14 of noise over 1e-5.
+const STEP: f64 = 1e-5;
+
+/// How far aside the secant method begins, as a part of the range.
+const ASIDE: f64 = 1e-5;
+
+/// Distances from a fold at which orbits are taken, as parts of the range.
+const NEAR_FOLD: [f64; 3] = [1e-6, 4e-6, 9e-6];
+
+/// Half the first bracket around a grazing, as a part of the range, and when it is narrow enough.
+const BRACKET: f64 = 1e-5;
+const NARROW: f64 = 1e-11;
+
+const ROUNDS: usize = 40;
+
+/// The parameter `index` at which what `special` says happens, as the second method finds it near that point;
+/// `range` is the length of the range. `None` where it finds nothing near, and for switches that change order.
+pub fn second_opinion<F: Family>(
+    family: &F,
+    special: &Special,
+    index: usize,
+    range: f64,
+) -> Option<f64> {
+    let scene = Scene {
+        family,
+        special,
+        index,
+        range,
+    };
+    match special.kind {
+        SpecialKind::Fold => scene.fold(),
+        SpecialKind::Grazing { .. } => scene.grazing(),
+        SpecialKind::PeriodDoubling => scene.crossing(1, |mu| nearest(mu, -1.0).map(|m| m + 1.0)),
+        SpecialKind::BranchPoint => scene.crossing(1, |mu| nearest(mu, 1.0).map(|m| m - 1.0)),
+        SpecialKind::Halving => scene.crossing(2, |mu| nearest(mu, -1.0).map(|m| m + 1.0)),
+        SpecialKind::NeimarkSacker { .. } => scene.crossing(1, |mu| {
+            let pairs = mu.iter().filter(|m| m.im > 0.0).map(|m| m.modulus() - 1.0);
+            pairs.min_by(|a, b| a.abs().total_cmp(&b.abs()))
+        }),
+        _ => None,
+    }
+}
+
+struct Scene<'a, F> {
+    family: &'a F,
+    special: &'a Special,
+    index: usize,
+    range: f64,
+}
+
+impl<F: Family> Scene<'_, F> {
+    /// The orbit at a value of the parameter, near `places`.
+    fn solve<G: Family>(&self, family: &G, value: f64, places: &[Place]) -> Option<Orbit> {
+        let mut parameters = self.special.orbit.parameters.clone();
+        parameters[self.index] = value;
+        find_orbit(family, &parameters, places, &NewtonOptions::default()).ok()
+    }
+
+    /// Where a function of the multipliers vanishes, for the orbit of the period over `share`.
+    fn crossing(&self, share: usize, test: impl Fn(&[Multiplier]) -> Option<f64>) -> Option<f64> {
+        let differences = Differences::new(self.family, STEP);
+        let places = &self.special.orbit.places;
+        let places = &places[..places.len() / share];
+        let value = |at: f64| test(&self.solve(&differences, at, places)?.multipliers);
+        // Begun aside, so as not to be told the answer.
+        let mut a = self.special.parameter - ASIDE * self.range;
+        let mut b = self.special.parameter + 0.7 * ASIDE * self.range;
+        let (mut at_a, mut at_b) = (value(a)?, value(b)?);
+        for _ in 0..ROUNDS {
+            let next = b - at_b * (b - a) / (at_b - at_a);
+            if !next.is_finite()
+                || (next - self.special.parameter).abs() > 100.0 * ASIDE * self.range
+            {
+                return None;
+            }
+            if (next - b).abs() <= NARROW * self.range {
+                return Some(next);
+            }
+            (a, at_a) = (b, at_b);
+            (b, at_b) = (next, value(next)?);
+        }
+        None
+    }
+
+    /// By the parabola through (multiplier - 1)^2 at three values on the side where there are orbits.
+    fn fold(&self) -> Option<f64> {
+        let differences = Differences::new(self.family, STEP);
+        let places = &self.special.orbit.places;
+        [1.0, -1.0].into_iter().find_map(|side| {
+            let at = NEAR_FOLD.map(|part| self.special.parameter + side * part * self.range);
+            let square = |at: f64| {
+                let orbit = self.solve(&differences, at, places)?;
+                // one that Newton's method found elsewhere
+                let near = nearest(&orbit.multipliers, 1.0).filter(|m| (m - 1.0).abs() < 0.1)?;
+                Some((near - 1.0).powi(2))
+            };
+            let squares = [square(at[0])?, square(at[1])?, square(at[2])?];
+            // The inverse function at zero (Lagrange).
+            let weight = |i: usize| {
+                let others = (0..3).filter(|&j| j != i);
+                others
+                    .map(|j| squares[j] / (squares[j] - squares[i]))
+                    .product::<f64>()
+            };
+            Some((0..3).map(|i| weight(i) * at[i]).sum())
+        })
+    }
+
+    /// Where orbits change the number of their switches.
+    fn grazing(&self) -> Option<f64> {
+        let places = &self.special.orbit.places;
+        let solve = |at: f64| {
+            let orbit = self.solve(self.family, at, places)?;
+            let switches = |period: &Vec<Crossing>| period.len();
+            Some(orbit.crossings.iter().map(switches).sum::<usize>())
+        };
+        let mut low = self.special.parameter - BRACKET * self.range;
+        let mut high = self.special.parameter + 0.7 * BRACKET * self.range;
+        let (before, behind) = (solve(low)?, solve(high)?);
+        if before == behind {
+            return None;
+        }
+        while high - low > NARROW * self.range {
+            let middle = f64::midpoint(low, high);
+            if solve(middle)? == before {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        Some(f64::midpoint(low, high))
+    }
+}
+
+/// The real multiplier nearest to a number.
+fn nearest(multipliers: &[Multiplier], to: f64) -> Option<f64> {
+    let real = multipliers.iter().filter(|m| m.im == 0.0).map(|m| m.re);
+    real.min_by(|a, b| (a - to).abs().total_cmp(&(b - to).abs()))
+}
