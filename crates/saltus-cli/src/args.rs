@@ -38,6 +38,9 @@ pub(crate) enum Command {
     /// Which long-term motion each first state leads to
     #[command(after_help = help::BASINS)]
     Basins(PlaneArgs),
+    /// The periodic orbit near the long-term motion, stable or not
+    #[command(after_help = help::ORBIT)]
+    Orbit(WorkArgs),
 }
 
 /// The study a command works on.

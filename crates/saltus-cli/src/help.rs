@@ -145,14 +145,57 @@ Folder (--out):
 
 --resume as in `saltus map`.";
 
+/// Below `saltus orbit --help`.
+pub(crate) const ORBIT: &str = "\
+Newton's method from the motion that [start] leads to after orbit.transient
+periods. With orbit.period = 0 the orbit is one that this motion is near, in
+chaos an unstable one; otherwise one of orbit.period forcing periods, or of a
+part of them if it closes sooner. The integration has a tolerance of 1e-13
+whatever [solver] says.
+
+JSON (--json, and orbit.json in --out):
+  period          forcing periods after which it closes
+  asked           orbit.period; null if that is 0
+  section         its points at cos(Omega t) = 1, period many, as in
+                  `saltus simulate`: z, v, w, phase
+  multipliers     Floquet multipliers [re, im] of the whole orbit, by falling
+                  modulus
+  stable          whether all of them lie inside the unit circle
+  outside         how many lie outside
+  switches        once around, as in `saltus simulate`: time (s) since the first
+                  point, jumper, kind
+  sequence        the order of its switches: T take-off, L landing (with the
+                  number of the jumper from 1 if there are several), | between
+                  forcing periods
+  contact_ratio   part of the time on the floor (-)
+  landing_phases  of each touch-down, Omega t in (0, 2 pi] (rad)
+  peak_prf        largest plate reaction force (body weights)
+  residual        largest gap left between the pieces of the orbit (h, h Omega)
+  iterations      steps of Newton's method
+  segments        pieces that it joined
+  base_hz, period_s (of one forcing period), version, study (as resolved)
+  contact_ratio, landing_phases and peak_prf are of one jumper, or a list for
+  several.
+
+Folder (--out):
+  study.toml, orbit.json, section.csv, multipliers.csv, switches.csv and the
+  figures portrait and multipliers as SVG and PNG.
+
+If no orbit is found the exit code is 1, and the message says how far the search
+came.";
+
 #[cfg(test)]
 mod tests {
     #[test]
     fn lines_fit_a_terminal() {
-        for line in [super::SIMULATE, super::SWEEP, super::MAP, super::BASINS]
-            .iter()
-            .flat_map(|h| h.lines())
-        {
+        let texts = [
+            super::SIMULATE,
+            super::SWEEP,
+            super::MAP,
+            super::BASINS,
+            super::ORBIT,
+        ];
+        for line in texts.iter().flat_map(|h| h.lines()) {
             assert!(line.chars().count() <= 80, "{line}");
         }
     }

@@ -5,7 +5,11 @@ mod check;
 mod frequencies;
 mod init;
 mod map;
+mod models;
+mod motion;
+mod orbit;
 mod plane;
+mod portrait;
 mod repeats;
 mod reproduce;
 mod schema;
@@ -34,6 +38,7 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::Sweep(args) => sweep::run(&args),
         Command::Map(args) => map::run(&args),
         Command::Basins(args) => basins::run(&args),
+        Command::Orbit(args) => orbit::run(&args),
     }
 }
 
