@@ -184,6 +184,46 @@ Folder (--out):
 If no orbit is found the exit code is 1, and the message says how far the search
 came.";
 
+/// Below `saltus continue --help`.
+pub(crate) const CONTINUE: &str = "\
+The study needs a [continue] table; `saltus init paper` shows one. The first
+orbit is sought at the study's own value of continue.parameter, or taken from an
+earlier result with --from DIR --at LABEL: then the parameter of that result
+gets the value there, and the study may have another range or parameter.
+Branches are followed through their folds, and from their period doublings and
+branch points to others. [continue.second] follows special points over two
+parameters.
+
+Special points: LP fold, PD period doubling, HP where a branch meets that of
+half its period, NS Neimark-Sacker, BP branch point, GR grazing, SO order of
+switches.
+
+JSON (--json, and continue.json in --out):
+  parameter, unit, label, from, to
+                  what changes; second likewise, null without curves
+  special_points  label, kind (PD, ...), name, branch, value of the parameter,
+                  period (forcing periods), outside (Floquet multipliers outside
+                  the unit circle before and after, in the order of the branch),
+                  angle of the multipliers on the circle (rad, NS only),
+                  sequence of switches as in `saltus orbit`, remark, section as
+                  in `saltus simulate`; orbit_value and state (modes, x in the
+                  units of the model) restart it
+  branches        branch (from 0), origin (label of the special point where it
+                  begins; null for the first), period, ends (two, in words) and
+    points        in their order along the branch: value, stable, outside,
+                  multiplier (the largest, [re, im]), sequence, section
+  complete        false if there are more branches than are followed
+  curves          label, kind, ends (two, in words), error (null, or why there
+                  is none) and points: values of both parameters, period, angle
+  version, study (as resolved)
+
+Folder (--out):
+  study.toml, continue.json, branches.csv (one line per point and place of the
+  orbit), special_points.csv, ends.csv, curves.csv, and the figures branches and
+  curves as SVG and PNG. Behind the branches lie the long-term motions at
+  continue.cloud values, 50 forcing periods after 150, the state carried on
+  upwards and downwards.";
+
 #[cfg(test)]
 mod tests {
     #[test]
@@ -194,6 +234,7 @@ mod tests {
             super::MAP,
             super::BASINS,
             super::ORBIT,
+            super::CONTINUE,
         ];
         for line in texts.iter().flat_map(|h| h.lines()) {
             assert!(line.chars().count() <= 80, "{line}");

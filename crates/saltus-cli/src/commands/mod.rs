@@ -2,6 +2,7 @@
 
 mod basins;
 mod check;
+mod continuation;
 mod frequencies;
 mod init;
 mod map;
@@ -21,7 +22,7 @@ use crate::exit::Failure;
 use crate::folder::Folder;
 use crate::{interrupt, output};
 use saltus::study::Control;
-use saltus_config::Study;
+use saltus_config::{Parameter, Study};
 use serde::Serialize;
 use std::io;
 use std::path::Path;
@@ -39,6 +40,7 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::Map(args) => map::run(&args),
         Command::Basins(args) => basins::run(&args),
         Command::Orbit(args) => orbit::run(&args),
+        Command::Continue(args) => continuation::run(&args),
     }
 }
 
@@ -82,6 +84,15 @@ fn tell(
         (false, true) => Ok(()),
         (false, false) => output::print(&text()),
     }
+}
+
+/// The base motion for a title, unless it is what changes.
+fn base_motion(study: &Study, parameter: &Parameter) -> Option<String> {
+    if parameter.key().starts_with("base.frequency") {
+        return None;
+    }
+    let omega = study.base().omega(&study.plate(), &study.jumpers()).ok()?;
+    Some(format!("base {:.4} Hz", omega / std::f64::consts::TAU))
 }
 
 /// As the first word of a label.

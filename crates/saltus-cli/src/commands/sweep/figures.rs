@@ -1,7 +1,7 @@
 //! The bifurcation diagram.
 
 use super::Run;
-use crate::commands::capitalized;
+use crate::commands::{base_motion, capitalized};
 use crate::per_jumper::{PANELS, panel_title};
 use saltus::study::Pass;
 use saltus_results::{Axis, Cloud, Figure};
@@ -18,19 +18,12 @@ pub(super) fn bifurcation(run: &Run) -> Figure {
 
 /// Said in the title, because a figure leaves its folder.
 fn setting(run: &Run) -> String {
-    let sweep = &run.sweep;
-    let base = if run.parameter.key().starts_with("base.frequency") {
-        None
-    } else {
-        let study = run.study;
-        study.base().omega(&study.plate(), &study.jumpers()).ok()
-    };
-    let base = base.map_or(String::new(), |omega| {
-        format!("base {:.4} Hz, ", omega / std::f64::consts::TAU)
-    });
+    let (sweep, base) = (&run.sweep, base_motion(run.study, &run.parameter));
     format!(
-        "{base}{} forcing periods per value after {}",
-        sweep.record, sweep.transient
+        "{}{} forcing periods per value after {}",
+        base.map_or(String::new(), |base| format!("{base}, ")),
+        sweep.record,
+        sweep.transient
     )
 }
 
