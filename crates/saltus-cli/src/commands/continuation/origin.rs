@@ -26,6 +26,7 @@ struct Document {
 #[derive(Deserialize)]
 struct Labelled {
     label: String,
+    kind: String,
     orbit_value: f64,
     state: Vec<State>,
 }
@@ -84,6 +85,9 @@ impl Origin {
                 "the state of {label} is not one of its study"
             )));
         }
+        // where a branch meets that of half its period, the halves of its orbit are one
+        let halves = if chosen.kind == "HP" { 2 } else { 1 };
+        let states = &chosen.state[..chosen.state.len() / halves];
         let place = |state: &State| Place {
             modes: state.modes.clone(),
             x: state.x.clone(),
@@ -93,7 +97,7 @@ impl Origin {
             model,
             parameter,
             value: chosen.orbit_value,
-            places: chosen.state.iter().map(place).collect(),
+            places: states.iter().map(place).collect(),
         })
     }
 
