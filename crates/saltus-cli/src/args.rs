@@ -44,6 +44,12 @@ pub(crate) enum Command {
     /// Branches of periodic orbits while one parameter changes, with their bifurcations
     #[command(after_help = help::CONTINUE)]
     Continue(ContinueArgs),
+    /// Lyapunov exponents of the long-term motion, with their errors
+    #[command(after_help = help::LYAPUNOV)]
+    Lyapunov(WorkArgs),
+    /// All coexisting long-term motions, their basins and hysteresis while one parameter changes
+    #[command(after_help = help::ATTRACTORS)]
+    Attractors(WorkArgs),
 }
 
 /// The study a command works on.

@@ -225,19 +225,124 @@ Folder (--out):
   continue.cloud values, 50 forcing periods after 150, the state carried on
   upwards and downwards.";
 
+/// Below `saltus lyapunov --help`.
+pub(crate) const LYAPUNOV: &str = "\
+The motion from [start] is run for lyapunov.transient forcing periods. From
+there on lyapunov.replicas pieces of it, each lyapunov.periods long, are run
+side by side with the tangent flow; a switch multiplies that by its saltation
+matrix. An exponent is the mean growth of a small deviation, natural logarithm,
+per forcing period. The drive keeps its phase: its exponent, 0, is not counted.
+All exponents of plate.inertia = \"full\" take hours where those of \"condensed\"
+take seconds; lyapunov.exponents = 1 asks for the largest alone.
+
+JSON (--json, and lyapunov.json in --out):
+  nature          what the motion is, by tests at a confidence of 0.999:
+    name          \"periodic\", \"quasi-periodic\", \"chaotic\", \"undecided\"
+    period        forcing periods; null if not periodic
+    confidence    that the test behind the name did not come out by chance; if
+                  undecided, that the largest exponent has the sign it shows
+    text          what the name means, or why there is none and what may help
+  exponents       the largest first, but for their errors:
+    per_period    per forcing period; null for -inf, a direction that shrinks
+                  to nothing in one period, as a relaxing leg at touch-down
+    standard_error
+                  from batches; null if the record is too short for one
+    per_second, per_second_error
+                  the same in 1/s
+  sum             of these exponents, likewise
+  divergence      of the flow, a check of the sum:
+    per_period    its time integral over a period, on average
+    must_agree    whether it must be the sum, and reason
+    difference    sum less divergence; null where they need not agree
+  kaplan_yorke    dimension of the attractor in the section: value and
+                  standard_error; null if more exponents or a longer record
+                  are needed
+  status          as in `saltus simulate`; status_text the same in a sentence
+  states          of the model, the most exponents possible
+  periods_measured
+                  of all replicas together
+  transient, periods, replicas, base_hz, period_s, version, study (as resolved)
+
+Folder (--out):
+  study.toml, lyapunov.json, convergence.csv (the exponents from the first
+  periods of the record, over how many these are) and the figure convergence as
+  SVG and PNG.
+
+Replicas that end early (chattering, ...) are told with what they measured, and
+exit code 1. Results are the same bits for any --threads.";
+
+/// Below `saltus attractors --help`.
+pub(crate) const ATTRACTORS: &str = "\
+The table [attractors] says from which box first states are drawn, evenly but
+without a pattern; `saltus init paper` shows one. Without the keys parameter,
+from, to and count it asks at the study's own parameters, with them at each
+value. There each attractor is also carried to the values beside, up to where
+it ends. So rare ones are found too, and one that merely changes, as by
+doubling its period, keeps its number. Motions are told apart as for
+`saltus basins`; here slow transients are run on to what they become.
+
+JSON (--json, and attractors.json in --out):
+  parameter          the key that changes; unit and label say more; null if none
+  starts             first states at each value
+  unseen             3/starts: with 95 % confidence, a basin that no first state
+                     met has a smaller part of the box
+  rows               one per value, from the lowest:
+    value            of the parameter
+    attractors       those with the most first states first:
+      number         from 1; the same attractor has the same at all values
+      period         forcing periods; null if not periodic
+      starts, share  first states that lead to it; 0 for one that was only
+                     carried here. share = [value, low, high], with Wilson's
+                     95 % confidence interval
+      contact_ratio, peak_reaction, peak_acceleration
+                     as in `saltus map`
+      z, v           its samples at cos(Omega t) = 1: height z/eta and velocity
+                     z'/(eta omega_h) (-), those of a cycle in an order that
+                     connects along the parameter; a list for one jumper, a
+                     list of lists for several
+    undecided, lost  first states that came to no attractor, since they were
+                     still on their way or their run ended early; likewise
+                     starts and share
+    first_failure    status and status_text of the first that is lost, or why
+                     there is no model; null if there is none
+  attractors         one per number:
+    first, last      values at which it was met first and last
+    birth, death     the values between which it begins and ends, and the number
+                     of the attractor to which a motion jumps beyond; null at
+                     the ends of the range
+  loops              of hysteresis:
+    from, to         first and last value at which the ways differ
+    up, down         numbers of the attractors on the way up and on the way down
+    period_up, period_down
+                     their periods where they jump; null if not periodic
+    jump_up, jump_down
+                     between which values they jump; null if they do not
+  unfinished         motions that were still being carried when it took too
+                     long; if not 0 an attractor may have several numbers
+  periods_run, version, study (as resolved)
+
+Folder (--out):
+  study.toml, attractors.json, attractors.csv (one line per value, attractor and
+  jumper), sections.csv (one per sample of these), loops.csv, and the figure
+  attractors as SVG and PNG.
+
+Results are the same bits for any --threads.";
+
 #[cfg(test)]
 mod tests {
     #[test]
     fn lines_fit_a_terminal() {
-        let texts = [
+        let all = [
             super::SIMULATE,
             super::SWEEP,
             super::MAP,
             super::BASINS,
             super::ORBIT,
             super::CONTINUE,
+            super::LYAPUNOV,
+            super::ATTRACTORS,
         ];
-        for line in texts.iter().flat_map(|h| h.lines()) {
+        for line in all.iter().flat_map(|h| h.lines()) {
             assert!(line.chars().count() <= 80, "{line}");
         }
     }

@@ -21,6 +21,7 @@ fn small(command: &str, count: u32) -> Vec<String> {
         format!("{command}.y.count={count}"),
         format!("{command}.transient=40"),
         format!("{command}.record=8"),
+        format!("{command}.exponent=100"),
     ];
     sets.into_iter()
         .flat_map(|set| ["--set".to_owned(), set])
@@ -61,7 +62,9 @@ fn json_tells_axes_and_counts() {
     assert!(found["peak_reaction"]["min"].as_f64().unwrap() > 1.0);
     assert!(found["peak_acceleration"]["max"].as_f64().unwrap() > 1.0);
     assert!(found["first_failure"].is_null());
-    assert!(found["periods_run"].as_u64().unwrap() <= 36 * 48);
+    // transient and record, once more with four times the patience, then the exponent and 40 before it
+    let most = 5 * 40 + 2 * 8 + 100 + 40;
+    assert!(found["periods_run"].as_u64().unwrap() <= 36 * most);
 }
 
 #[test]

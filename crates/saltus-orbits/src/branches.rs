@@ -18,7 +18,7 @@ pub struct BranchesOptions {
     pub continuation: ContinuationOptions,
     /// Doublings of the period in a row at most; with 6 the ratio of their distances is Feigenbaum's to 1e-3.
     pub doublings: usize,
-    /// Whether branches that cross at branch points are followed too.
+    /// Whether branches that cross at branch points, and those of half the period where one ends, are followed too.
     pub crossings: bool,
     /// Branches at most.
     pub branches: usize,
@@ -40,14 +40,14 @@ impl Default for BranchesOptions {
 pub struct Limb {
     /// Label of the special point where it begins; `None` for the first branch.
     pub origin: Option<String>,
-    /// Doublings of the period since the first branch.
+    /// Doublings of the period since the first branch, or since that of half its period.
     pub doublings: usize,
     /// The branch.
     pub branch: Branch,
 }
 
 /// Follows a branch from `start` both ways, then the branches of twice the period from its period doublings
-/// and those that cross it, and so on. No branch is followed twice. Labels are unique among all branches.
+/// those that cross it and that of half its period where it ends, and so on. No branch is followed twice. Labels are unique among all branches.
 ///
 /// A doubled branch is followed one way: the other way the same orbits come half a period later.
 /// `keep_going` sees each point; `false` ends the work.
@@ -82,9 +82,14 @@ pub fn branches<F: Family + ?Sized>(
                 return Ok(limbs);
             }
             let seen = |known: &Special| path.same(known, &special);
-            let halvings = limbs.iter().flat_map(|limb| &limb.branch.specials);
-            let mut halvings = halvings.filter(|s| s.kind == SpecialKind::Halving);
-            if visited.iter().any(seen) || halvings.any(seen) {
+            // A halving and the period doubling that it is on the other branch: one of them will do.
+            let twin = match special.kind {
+                SpecialKind::Halving => SpecialKind::PeriodDoubling,
+                _ => SpecialKind::Halving,
+            };
+            let all = limbs.iter().flat_map(|limb| &limb.branch.specials);
+            let mut twins = all.filter(|s| s.kind == twin);
+            if visited.iter().any(seen) || twins.any(seen) {
                 continue;
             }
             let (branch, doublings) = match special.kind {
@@ -100,6 +105,13 @@ pub fn branches<F: Family + ?Sized>(
                     (
                         birth.map(|seed| path.walk_both(seed, true, keep_going)),
                         depth,
+                    )
+                }
+                SpecialKind::Halving if options.crossings => {
+                    let mother = path.half(&special);
+                    (
+                        mother.map(|seed| path.walk_both(seed, false, keep_going)),
+                        depth.saturating_sub(1),
                     )
                 }
                 _ => continue,

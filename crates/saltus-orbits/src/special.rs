@@ -107,10 +107,7 @@ impl Test {
         match self {
             Self::Events => None,
             Self::BranchPoint => Some(point.side),
-            Self::PeriodDoubling => {
-                let above = real(&point.orbit).map(|mu| mu + 1.0);
-                above.min_by(|a, b| a.abs().total_cmp(&b.abs()))
-            }
+            Self::PeriodDoubling => flip(&point.orbit),
             Self::Fold => Some(point.pace()),
             Self::NeimarkSacker => Some(critical_pair(&point.orbit)?.modulus() - 1.0),
         }
@@ -134,6 +131,12 @@ impl Test {
             }
         })
     }
+}
+
+/// The real multiplier nearest to -1, plus 1.
+pub(crate) fn flip(orbit: &Orbit) -> Option<f64> {
+    let above = real(orbit).map(|mu| mu + 1.0);
+    above.min_by(|a, b| a.abs().total_cmp(&b.abs()))
 }
 
 fn real(orbit: &Orbit) -> impl Iterator<Item = f64> {

@@ -2,9 +2,18 @@
 
 use crate::continuation::Point;
 use crate::linear::{self, dot, plus, scaled, unit};
+use crate::locate::NARROW;
 use crate::path::Path;
 use crate::shooting::Guess;
-use crate::{Family, Orbit, Special};
+use crate::special::flip;
+use crate::{Family, Orbit, Special, find_orbit};
+
+/// Steps of the secant method at most.
+const SECANT: usize = 12;
+
+/// How far aside, as a part of the range, the secant method looks for its slope: a halving is known to
+/// some 1e-7.
+const ASIDE: f64 = 1e-4;
 
 impl<F: Family + ?Sized> Path<'_, F> {
     /// Where the branch of twice the period begins: the orbit taken twice, with the tangent (v, -v) in its two
@@ -15,6 +24,61 @@ impl<F: Family + ?Sized> Path<'_, F> {
         let mut guess = special.orbit.guess();
         guess.places.extend_from_within(..);
         self.birth(&guess, |_| Some(tangent))
+    }
+
+    /// The branch of half the period, where one of its doubled branches ends: on it nothing special happens to the
+    /// equations.
+    pub(crate) fn half(&self, special: &Special) -> Option<Point> {
+        let orbit = self.at(special, special.parameter)?;
+        self.seed(&orbit, true).ok()
+    }
+
+    /// Puts a halving where it is known best: at the period doubling on the branch of half the period, found there
+    /// by the secant method. It stays where it was if that is not near.
+    pub(crate) fn at_doubling(&self, special: &mut Special) {
+        let range = self.range[1] - self.range[0];
+        let inwards = if special.parameter > self.range[0] + range / 2.0 {
+            -1.0
+        } else {
+            1.0
+        };
+        let mut known: Option<(f64, f64)> = None;
+        let mut parameter = special.parameter;
+        for _ in 0..SECANT {
+            let Some(orbit) = self.at(special, parameter) else {
+                return;
+            };
+            let Some(value) = flip(&orbit) else { return };
+            let change = match known {
+                None => inwards * ASIDE * range,
+                Some((before, value_before)) => {
+                    -value * (parameter - before) / (value - value_before)
+                }
+            };
+            if known.is_some() && change.abs() <= NARROW * range || value == 0.0 {
+                special.parameter = parameter;
+                special.orbit.parameters[self.free[0].index] = parameter;
+                let twice = [orbit.places.clone(), orbit.places].concat();
+                special.orbit.places = twice;
+                return;
+            }
+            known = Some((parameter, value));
+            parameter += change;
+            if (parameter - special.parameter).abs() > 10.0 * ASIDE * range
+                || !parameter.is_finite()
+            {
+                return;
+            }
+        }
+    }
+
+    /// The orbit of half the period near a halving.
+    fn at(&self, special: &Special, parameter: f64) -> Option<Orbit> {
+        let places = &special.orbit.places;
+        let mut parameters = special.orbit.parameters.clone();
+        parameters[self.free[0].index] = parameter;
+        let (half, newton) = (&places[..places.len() / 2], &self.options.newton);
+        find_orbit(self.family, &parameters, half, newton).ok()
     }
 
     /// Where the other branch through a branch point begins: of the plane of directions in which the equations

@@ -123,6 +123,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
         {
             specials.truncate(met + 1);
             specials[met].kind = SpecialKind::Halving;
+            self.at_doubling(&mut specials[met]);
         }
         Ok((point, specials))
     }

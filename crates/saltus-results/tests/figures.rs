@@ -576,3 +576,21 @@ fn intervals_by_label_have_colours_of_their_own() {
         "{text}"
     );
 }
+
+#[test]
+fn dots_over_few_values_are_wide_and_over_many_as_fine_as_any() {
+    let inked = |cloud: Cloud| {
+        let dots = cloud.series("dots", [0.2, 0.5, 0.8], [0.5; 3]);
+        count(&Figure::new(dots), Colour::ATTRACTORS[0])
+    };
+    let empty = || Cloud::new("", unit("x"), unit("y"));
+    let [few, many, fine] = [
+        empty().apart_over(3),
+        empty().apart_over(9999),
+        empty().apart(),
+    ]
+    .map(inked);
+    assert_eq!(many, fine);
+    // three discs of 5 px instead of 2.2, and wider in the legend too
+    assert!(few > many + 20, "{few} {many}");
+}

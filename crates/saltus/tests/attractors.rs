@@ -98,7 +98,7 @@ fn labels_are_those_of_the_paper() {
     for (zeta, ratio, expected) in [
         (0.35, 0.9, Kind::Periodic(1)),
         (0.28, 1.0, Kind::Periodic(2)),
-        (0.12, 1.0, Kind::NotPeriodic),
+        (0.12, 1.0, Kind::Chaotic),
     ] {
         let model = Setup::dias_del_prado(zeta, ratio).model().expect("valid");
         let mut labels = Vec::new();
@@ -124,6 +124,7 @@ fn peaks_are_those_of_a_fine_time_history() {
         transient: 12,
         record: 8,
         early_stop: false,
+        exponent: 0,
     };
     for (zeta, ratio) in [(0.3, 1.0), (0.12, 1.0), (0.15, 1.1)] {
         let model = Setup::dias_del_prado(zeta, ratio).model().expect("valid");
@@ -211,6 +212,7 @@ fn a_pixel_without_model_and_one_of_another_structure_are_answers_too() {
         transient: 4,
         record: 4,
         early_stop: true,
+        exponent: 0,
     };
     let mut answers = vec![None; 4];
     attractors(0..4, start_at, &search, &Control::default(), |i, found| {

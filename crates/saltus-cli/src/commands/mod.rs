@@ -1,10 +1,12 @@
 //! One file per command.
 
+mod attractors;
 mod basins;
 mod check;
 mod continuation;
 mod frequencies;
 mod init;
+mod lyapunov;
 mod map;
 mod models;
 mod motion;
@@ -21,6 +23,7 @@ use crate::args::{Command, OutputArgs, StudyArgs, ThreadArgs};
 use crate::exit::Failure;
 use crate::folder::Folder;
 use crate::{interrupt, output};
+use saltus::model::Model;
 use saltus::study::Control;
 use saltus_config::{Parameter, Study};
 use serde::Serialize;
@@ -41,6 +44,8 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::Basins(args) => basins::run(&args),
         Command::Orbit(args) => orbit::run(&args),
         Command::Continue(args) => continuation::run(&args),
+        Command::Lyapunov(args) => lyapunov::run(&args),
+        Command::Attractors(args) => attractors::run(&args),
     }
 }
 
@@ -86,13 +91,23 @@ fn tell(
     }
 }
 
-/// The base motion for a title, unless it is what changes.
-fn base_motion(study: &Study, parameter: &Parameter) -> Option<String> {
-    if parameter.key().starts_with("base.frequency") {
-        return None;
+/// Said in the titles of figures, because a figure leaves its folder.
+fn setting(study: &Study, model: &Model) -> String {
+    let hertz = model.scales().omega / std::f64::consts::TAU;
+    match study.jumper.as_slice() {
+        [one] => format!("ζ_h = {}, base {hertz:.4} Hz", one.damping_ratio),
+        _ => format!("base {hertz:.4} Hz"),
     }
-    let omega = study.base().omega(&study.plate(), &study.jumpers()).ok()?;
-    Some(format!("base {:.4} Hz", omega / std::f64::consts::TAU))
+}
+
+/// What a title says of the base, because a figure leaves its folder, unless that is what changes.
+fn base_in_title(study: &Study, parameter: Option<&Parameter>) -> String {
+    let changes = parameter.is_some_and(|p| p.key().starts_with("base.frequency"));
+    let omega = study.base().omega(&study.plate(), &study.jumpers()).ok();
+    let omega = omega.filter(|_| !changes);
+    omega.map_or(String::new(), |omega| {
+        format!("base {:.4} Hz, ", omega / std::f64::consts::TAU)
+    })
 }
 
 /// As the first word of a label.

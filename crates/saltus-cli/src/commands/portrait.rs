@@ -1,8 +1,7 @@
 //! The phase portraits of a motion.
 
 use crate::per_jumper::{PANELS, panel_title};
-use saltus::model::{Model, Observation, Section};
-use saltus_config::Study;
+use saltus::model::{Observation, Section};
 use saltus_results::{Axis, Figure, Panel, Portrait};
 
 /// What a phase portrait shows.
@@ -13,15 +12,6 @@ pub(super) struct Motion<'a> {
     pub(super) section: &'a [Section],
     /// Which points of the section.
     pub(super) seen: String,
-}
-
-/// Said in each title, because a figure leaves its folder.
-pub(super) fn setting(study: &Study, model: &Model) -> String {
-    let hertz = model.scales().omega / std::f64::consts::TAU;
-    match study.jumper.as_slice() {
-        [one] => format!("ζ_h = {}, base {hertz:.4} Hz", one.damping_ratio),
-        _ => format!("base {hertz:.4} Hz"),
-    }
 }
 
 /// Of `jumpers` people, the first ones.

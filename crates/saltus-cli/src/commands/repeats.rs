@@ -3,7 +3,7 @@
 use saltus::study::recurrence;
 
 /// Samples that differ by no more than this (in the paper's units) are the same.
-const SAME: f64 = 1e-6;
+pub(super) const SAME: f64 = 1e-6;
 
 /// The number after which the samples of all jumpers repeat; none if not within half of them.
 /// `samples` gives z and v of one jumper.

@@ -53,6 +53,11 @@ pub struct MapTable {
     #[serde(default = "default_record")]
     #[garde(range(min = 1, max = 100_000))]
     pub record: u32,
+    /// Forcing periods, at most, over which the largest Lyapunov exponent is followed where the motion has no
+    /// period (-, a whole number), such as 2000; 0: it is not asked whether that is chaos or a torus.
+    #[serde(default = "default_exponent")]
+    #[garde(range(min = 0, max = 10_000_000))]
+    pub exponent: u32,
     /// The parameter along x, left to right.
     #[garde(dive)]
     pub x: AxisTable,
@@ -74,6 +79,11 @@ pub struct BasinsTable {
     #[serde(default = "default_record")]
     #[garde(range(min = 1, max = 100_000))]
     pub record: u32,
+    /// Forcing periods, at most, over which the largest Lyapunov exponent is followed where the motion has no
+    /// period (-, a whole number), such as 2000; 0: it is not asked whether that is chaos or a torus.
+    #[serde(default = "default_exponent")]
+    #[garde(range(min = 0, max = 10_000_000))]
+    pub exponent: u32,
     /// The part of the first state along x, left to right: "start.z" or "start.v".
     #[garde(dive)]
     pub x: AxisTable,
@@ -90,12 +100,17 @@ fn default_record() -> u32 {
     64
 }
 
+fn default_exponent() -> u32 {
+    2000
+}
+
 impl MapTable {
     /// The plane that DP Fig. 2 cuts at three frequencies.
     pub(super) fn paper() -> Self {
         Self {
             transient: default_transient(),
             record: default_record(),
+            exponent: default_exponent(),
             x: AxisTable::new("jumper.damping_ratio", 0.1, 0.5, 64),
             y: AxisTable::new("base.frequency_ratio", 0.85, 1.15, 64),
         }
@@ -108,6 +123,7 @@ impl BasinsTable {
         Self {
             transient: default_transient(),
             record: default_record(),
+            exponent: default_exponent(),
             x: AxisTable::new("start.z", -2.0, 6.0, 64),
             y: AxisTable::new("start.v", -4.0, 4.0, 64),
         }

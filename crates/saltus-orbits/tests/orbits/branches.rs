@@ -296,6 +296,25 @@ fn a_bubble_of_period_two_is_followed_once() {
 }
 
 #[test]
+fn from_the_end_of_a_doubled_branch_its_mother_is_found() {
+    let map = logistic();
+    // the 2-cycle at r = 3.2, in closed form
+    let r: f64 = 3.2;
+    let cycle =
+        [1.0, -1.0].map(|sign| (r + 1.0 + sign * ((r + 1.0) * (r - 3.0)).sqrt()) / (2.0 * r));
+    let start = orbit(&map, &[r], &[&[cycle[0]], &[cycle[1]]]);
+    let options = BranchesOptions {
+        doublings: 0,
+        ..BranchesOptions::default()
+    };
+    let all = branches(&map, &start, &along(0, 2.5, 3.4), &options, &mut |_| true).unwrap();
+    assert_specials(&all[0].branch, &[("HP", 3.0)]);
+    assert_eq!((all.len(), all[1].origin.as_deref()), (2, Some("HP1")));
+    assert_eq!(all[1].branch.points[0].orbit.period(), 1);
+    assert_specials(&all[1].branch, &[("PD", 3.0)]);
+}
+
+#[test]
 fn a_point_of_a_branch_costs_few_calls() {
     let map = henon();
     let start = orbit(&map, &[0.0, 0.3], &[&[0.0, 0.0]]);

@@ -17,7 +17,8 @@ pub struct Cloud {
     x: Axis,
     y: Axis,
     series: Vec<Series>,
-    apart: bool,
+    /// Diameter (px) of the dots of series that are apart.
+    apart: Option<f64>,
     flags: Vec<(f64, String)>,
 }
 
@@ -37,7 +38,7 @@ impl Cloud {
             x,
             y,
             series: Vec::new(),
-            apart: false,
+            apart: None,
             flags: Vec::new(),
         }
     }
@@ -73,7 +74,15 @@ impl Cloud {
     /// [`Colour::ATTRACTORS`], the series with the fewest points on top, so that a cycle shows before chaos.
     #[must_use]
     pub fn apart(mut self) -> Self {
-        self.apart = true;
+        self.apart = Some(FINE);
+        self
+    }
+
+    /// As [`apart`](Self::apart), for series over `count` different x spread over the width of a
+    /// [`Figure`](super::Figure) of one column: the fewer, the wider the dots, within what is still a dot.
+    #[must_use]
+    pub fn apart_over(mut self, count: usize) -> Self {
+        self.apart = Some((0.3 * 760.0 / count.max(1) as f64).clamp(FINE, 5.0));
         self
     }
 
@@ -85,8 +94,8 @@ impl Cloud {
     }
 }
 
-/// Diameter (px) of the dots of series that are apart.
-const APART: f64 = 2.2;
+/// Diameter (px) of dots that are apart and many.
+const FINE: f64 = 2.2;
 
 /// Diameter (px) of the dots of series `index` of `count`: from wide below to fine on top.
 fn pen(index: usize, count: usize) -> f64 {
@@ -106,20 +115,16 @@ impl From<Cloud> for Panel {
         panel.flags = cloud.flags;
         let count = cloud.series.len();
         let order: &[Colour] = match cloud.apart {
-            true => &Colour::ATTRACTORS,
-            false => &Colour::NESTED,
+            Some(_) => &Colour::ATTRACTORS,
+            None => &Colour::NESTED,
         };
         for (index, series) in cloud.series.into_iter().enumerate() {
             let colour = series.colour.unwrap_or(Colour::of(order, index));
-            let pen = if cloud.apart {
-                APART
-            } else {
-                pen(index, count)
-            };
+            let pen = cloud.apart.unwrap_or(pen(index, count));
             panel.key(
                 series.label,
                 Swatch::Dot {
-                    radius: 1.4 + 0.9 * pen,
+                    radius: 1.4 + 0.9 * pen.min(4.0),
                     colour,
                 },
             );
@@ -130,7 +135,7 @@ impl From<Cloud> for Panel {
                 colour,
             });
         }
-        if cloud.apart {
+        if cloud.apart.is_some() {
             panel.layers.sort_by_key(|layer| match layer {
                 Layer::Dust { x, .. } => Reverse(x.len()),
                 _ => Reverse(0),

@@ -1,15 +1,18 @@
 //! Which attractor does a start lead to? One answer per start, for maps of parameters and of starts.
 //!
-//! A start is run until it is surely on a cycle (see `classify`), or for the whole transient; then
-//! the cycle once, or the recording, with dense output for peaks. Starts are independent of each other to
+//! A start is run until it is surely on a cycle (see [`Samples`]), or for the whole transient; then
+//! the cycle once, or the recording, with dense output for peaks. A motion that is still on its way to a cycle then is
+//! given four times as long. What still has no period is run on with its tangent, until its largest
+//! exponent tells what it is (`doubt`). Starts are independent of each other to
 //! the bit: so any part of a map can be computed at any time, by any number of threads.
 
 use std::sync::OnceLock;
 
 use saltus_hybrid::integrate_stream;
 use saltus_hybrid::{End, IntegrateError, Leg, Point, Sample, Status, Step, System, Task};
+use saltus_orbits::{Closeness, Exponent, OnCycle, Recurrence, Samples};
 
-use super::classify::{Closeness, OnCycle, Samples, Settling};
+use super::doubt::{self, Doubtful};
 use super::peaks::Peaks;
 use super::{Control, StudyError};
 use crate::model::{Contact, Model, ModelError, Probe};
@@ -24,16 +27,20 @@ pub struct Search {
     /// Whether the transient ends as soon as the motion has surely settled. The answer is the same within
     /// 1e-6 eta; without it each start takes all its periods.
     pub early_stop: bool,
+    /// Forcing periods, at most, over which the largest exponent of a motion without a period is followed, to
+    /// say what it is. 0 leaves it at [`Kind::NotPeriodic`].
+    pub exponent: u64,
 }
 
 impl Default for Search {
     /// 400 periods: the paper's plate modes lose a tenth of their amplitude per period. 64 recorded show
-    /// each period up to 32 twice.
+    /// each period up to 32 twice. 2000 tell an exponent of 0.02 from zero.
     fn default() -> Self {
         Self {
             transient: 400,
             record: 64,
             early_stop: true,
+            exponent: 2000,
         }
     }
 }
@@ -55,6 +62,14 @@ impl Found {
         let motion = self.attractor.as_ref().ok()?;
         let arrival = self.arrival.as_ref()?;
         (motion.kind == Kind::Undecided).then_some(&arrival.point)
+    }
+}
+
+impl Found {
+    /// Whether there is a motion, and no period of it is known.
+    fn has_no_period(&self) -> bool {
+        let kind = self.attractor.as_ref().map(|motion| motion.kind);
+        matches!(kind, Ok(Kind::NotPeriodic | Kind::Undecided))
     }
 }
 
@@ -82,10 +97,24 @@ pub enum Lost {
 pub enum Kind {
     /// A cycle of so many forcing periods, at most 32.
     Periodic(u32),
-    /// No cycle of at most 32 periods: chaos, a torus, a longer cycle.
+    /// On a torus: its largest exponent is zero far more closely than chance allows.
+    QuasiPeriodic,
+    /// Its largest exponent is positive.
+    Chaotic,
+    /// No cycle of at most 32 periods, and nobody asked for its exponent.
     NotPeriodic,
-    /// Still visibly on its way to a cycle, or away from an unstable one, when the time was up.
+    /// Still on its way when the time was up, on a longer cycle, or its exponent too small to tell its sign.
     Undecided,
+}
+
+impl Kind {
+    /// Whether it is known not to repeat.
+    pub fn never_repeats(self) -> bool {
+        matches!(
+            self,
+            Self::QuasiPeriodic | Self::Chaotic | Self::NotPeriodic
+        )
+    }
 }
 
 /// Smallest and largest value.
@@ -111,6 +140,11 @@ pub struct Attractor {
     pub ranges: Vec<(Range, Range)>,
     /// What may be left of the transient (eta); 0 if not periodic.
     pub rest: f64,
+    /// The largest Lyapunov exponent (per forcing period), where it took one to say what the motion is.
+    pub exponent: Option<Exponent>,
+    /// Confidence of the test by which it got its name, or of the sign of the exponent where it is undecided (see
+    /// [`saltus_orbits::judge`]); `None` for a cycle known by its returns, whose measure is `rest`.
+    pub confidence: Option<f64>,
 }
 
 /// The attractor that each of the `starts` leads to, into `sink`, in no particular order.
@@ -132,19 +166,43 @@ where
     F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
     E: From<StudyError> + Send,
 {
-    let mut later = round(starts.into_iter(), &start_at, search, control, &mut sink)?;
+    let mut doubtful = Vec::new();
+    let mut later = round(
+        starts.into_iter(),
+        &start_at,
+        search,
+        control,
+        &mut doubtful,
+        &mut sink,
+    )?;
     // Systems of another structure cannot share lanes with the first ones, but with each other.
     while !later.is_empty() {
         later.sort_unstable();
-        later = round(later.into_iter(), &start_at, search, control, &mut sink)?;
+        later = round(
+            later.into_iter(),
+            &start_at,
+            search,
+            control,
+            &mut doubtful,
+            &mut sink,
+        )?;
     }
-    Ok(())
+    doubt::settle(doubtful, &start_at, search, control, &mut sink)
 }
 
 /// An error of the engine or of the sink.
-enum Refused<E> {
+pub(super) enum Refused<E> {
     Engine(IntegrateError),
     Sink(E),
+}
+
+impl<E: From<StudyError>> Refused<E> {
+    pub(super) fn into_error(self) -> E {
+        match self {
+            Self::Engine(error) => StudyError::from(error).into(),
+            Self::Sink(error) => error,
+        }
+    }
 }
 
 impl<E> From<IntegrateError> for Refused<E> {
@@ -159,6 +217,7 @@ fn round<F, E>(
     start_at: &F,
     search: &Search,
     control: &Control,
+    doubtful: &mut Vec<Doubtful>,
     sink: &mut (impl FnMut(usize, Found) -> Result<(), E> + Send),
 ) -> Result<Vec<usize>, E>
 where
@@ -175,8 +234,13 @@ where
         structure: &structure,
         found: None,
         motion: None,
+        extended: false,
     });
     let take = |task: Pursuit<'_, F>| match task.found {
+        Some(found) if search.exponent > 0 && found.has_no_period() => {
+            doubtful.push(Doubtful::new(task.number, found));
+            Ok(())
+        }
         Some(found) => sink(task.number, found).map_err(Refused::Sink),
         None => {
             later.push(task.number);
@@ -190,10 +254,7 @@ where
         &control.stop,
         take,
     )
-    .map_err(|refused| match refused {
-        Refused::Engine(error) => StudyError::from(error).into(),
-        Refused::Sink(error) => error,
-    })?;
+    .map_err(Refused::into_error)?;
     Ok(later)
 }
 
@@ -207,7 +268,12 @@ struct Pursuit<'a, F> {
     found: Option<Found>,
     /// Made when its turn comes, gone when it has ended.
     motion: Option<Motion>,
+    /// Whether it has had more time because it was on its way.
+    extended: bool,
 }
+
+/// Times the transient that a motion on its way gets.
+const PATIENCE: u64 = 4;
 
 /// What is kept of a motion while it runs.
 struct Motion {
@@ -308,6 +374,14 @@ where
                 arrival: None,
             });
         } else if let Some(recording) = motion.recording.take() {
+            if !self.extended && motion.judge() == Recurrence::Drifting {
+                self.extended = true;
+                return Some(Leg {
+                    system: motion.model.system().clone(),
+                    start: end.point,
+                    periods: PATIENCE * self.search.transient,
+                });
+            }
             let attractor = motion.attractor(&recording);
             let section = motion.section(attractor.kind, recording.stance.len());
             self.found = Some(Found {
@@ -371,15 +445,18 @@ impl Recording {
 }
 
 impl Motion {
+    /// Whether the motion has settled, from all its samples.
+    fn judge(&self) -> Recurrence {
+        self.settled
+            .map_or_else(|| self.samples.judge(), Recurrence::from)
+    }
+
     /// What the whole motion says.
     fn attractor(&self, recording: &Recording) -> Attractor {
-        let settling = self
-            .settled
-            .map_or_else(|| self.samples.judge(), Settling::Settled);
-        let (kind, rest) = match settling {
-            Settling::Settled(found) => (Kind::Periodic(found.period), found.rest),
-            Settling::Drifting => (Kind::Undecided, 0.0),
-            Settling::Open => (Kind::NotPeriodic, 0.0),
+        let (kind, rest) = match self.judge() {
+            Recurrence::Recurs { period, rest } => (Kind::Periodic(period), rest),
+            Recurrence::Drifting => (Kind::Undecided, 0.0),
+            Recurrence::Open => (Kind::NotPeriodic, 0.0),
         };
         let recorded = recording.stance.len();
         // whole cycles only, the last ones
@@ -418,6 +495,8 @@ impl Motion {
             v: (bodies..2 * bodies).map(section).collect(),
             ranges: recording.ranges.clone(),
             rest,
+            exponent: None,
+            confidence: None,
         }
     }
 
@@ -443,7 +522,7 @@ fn widened([low, high]: Range, value: f64) -> Range {
 }
 
 /// Numbers in a sample: z and v of each body, then r_j and r_j', then what a leg remembers.
-fn width(model: &Model) -> usize {
+pub(super) fn width(model: &Model) -> usize {
     let layout = model.layout;
     let legs = if layout.legs { layout.jumpers } else { 0 };
     2 * (layout.jumpers + layout.transverse) + legs
@@ -451,7 +530,7 @@ fn width(model: &Model) -> usize {
 
 /// A state in units of eta and eta omega_h of its body, those of the plate of the first one. In-plane
 /// amplitudes are left out: they follow the others.
-fn coordinates(model: &Model, x: &[f64], row: &mut [f64]) {
+pub(super) fn coordinates(model: &Model, x: &[f64], row: &mut [f64]) {
     let (layout, scales) = (model.layout, &model.scales);
     let first = scales.jumpers.first();
     let (length, speed) = first.map_or((1.0, 1.0), |unit| {

@@ -43,7 +43,9 @@ impl Entry {
     pub(super) fn holds(&self, motion: &Attractor) -> bool {
         match (motion.kind, self.attractor.kind) {
             (Kind::Periodic(n), Kind::Periodic(m)) if n == m => same_cycle(motion, &self.attractor),
-            (Kind::NotPeriodic, Kind::NotPeriodic) => same_band(&motion.ranges, &self.ranges),
+            (a, b) if a.never_repeats() && b.never_repeats() => {
+                same_band(&motion.ranges, &self.ranges)
+            }
             _ => false,
         }
     }
@@ -161,6 +163,8 @@ mod tests {
             v: vec![z.iter().map(|z| 2.0 * z).collect()],
             ranges: vec![(range, range)],
             rest,
+            exponent: None,
+            confidence: None,
         }
     }
 

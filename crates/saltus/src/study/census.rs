@@ -2,9 +2,9 @@
 
 use super::attractor::{Arrival, Found, Kind, Lost};
 use super::basins::{Catalogue, Entry};
-use super::classify::Closeness;
 use super::fraction::Fraction;
 use saltus_hybrid::Point;
+use saltus_orbits::Closeness;
 
 /// What all starts of a box came to. The counts add up to the number of starts.
 ///

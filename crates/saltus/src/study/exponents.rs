@@ -1,9 +1,9 @@
 //! Lyapunov exponents of long-term motions, by the tangent flow.
 
-use saltus_hybrid::{End, Leg, Point, Sample, Status, System, Task, integrate_all, record};
+use saltus_hybrid::{End, Leg, Point, Sample, Status, System, Task, integrate_all};
 use saltus_orbits::{Exponent, Spectrum};
 
-use super::{Control, StudyError};
+use super::{Control, StudyError, settle};
 use crate::model::{Model, ModelError};
 
 /// Periods in which the columns turn into their directions, before anything is recorded. Plate modes lose
@@ -132,7 +132,8 @@ pub struct Measurement {
 impl Measurement {
     /// Periods to run in all, for a progress display.
     pub fn work(&self) -> u64 {
-        self.replicas as u64 * (ALIGNMENT + self.periods)
+        let replicas = self.replicas.max(1) as u64;
+        self.transient + (replicas - 1) * APART + replicas * (ALIGNMENT + self.periods)
     }
 }
 
@@ -150,28 +151,21 @@ pub fn lyapunov(
     how: &Measurement,
     control: &Control,
 ) -> Result<Growth, StudyError> {
-    let replicas = how.replicas.max(1);
-    let leg = Leg {
-        system: model.system().clone(),
-        start: start.clone(),
-        periods: how.transient + APART * (replicas as u64 - 1),
-    };
-    let way = record(&leg, &control.options)?;
-    if way.end.status != Status::Completed {
-        return Ok(Growth {
-            spectrum: Spectrum::new(model.free_states(), how.exponents)?,
-            divergence: 0.0,
-            status: way.end.status,
-        });
+    let (mut starts, mut at) = (Vec::new(), start.clone());
+    for replica in 0..how.replicas.max(1) {
+        let periods = if replica == 0 { how.transient } else { APART };
+        for settled in settle(&[(model.clone(), at.clone())], periods, 0, control)? {
+            if settled.status != Status::Completed {
+                return Ok(Growth {
+                    spectrum: Spectrum::new(model.free_states(), how.exponents)?,
+                    divergence: 0.0,
+                    status: settled.status,
+                });
+            }
+            at = settled.end;
+        }
+        starts.push((model.clone(), at.clone()));
     }
-    let place = |replica: usize| {
-        let period = how.transient + APART * replica as u64;
-        let sample = period
-            .checked_sub(1)
-            .and_then(|i| way.samples.get(i as usize));
-        (model.clone(), sample.unwrap_or(start).clone())
-    };
-    let starts: Vec<_> = (0..replicas).map(place).collect();
     let mut parts = growth(&starts, how.exponents, how.periods, control)?.into_iter();
     let Some(mut all) = parts.next() else {
         return Err(saltus_hybrid::IntegrateError::Interrupted.into());
@@ -183,7 +177,7 @@ pub fn lyapunov(
             all.status = part.status;
         }
     }
-    all.divergence /= replicas as f64;
+    all.divergence /= starts.len() as f64;
     Ok(all)
 }
 

@@ -12,13 +12,14 @@
 //! `matching` says when two attractors are the same, and `lineages` what follows.
 
 use std::collections::BTreeMap;
+use std::sync::atomic::Ordering;
 
 use super::census::{Census, Tally};
 use super::lineages::{Lineages, Row};
 use super::matching::{Links, Node, Way};
 use super::{Control, Found, Search, Starts, StudyError, attractors};
 use crate::model::{Model, ModelError};
-use saltus_hybrid::Point;
+use saltus_hybrid::{IntegrateError, Point};
 
 /// The attractors of `model`, as the starts lead to them.
 ///
@@ -55,6 +56,10 @@ where
 {
     let mut places = Vec::with_capacity(values.len());
     for &value in values {
+        // a plate of many terms takes a while to prepare
+        if control.stop.load(Ordering::Relaxed) {
+            return Err(IntegrateError::Interrupted.into());
+        }
         let stable = |model: Model| model.check_step(&control.options).map(|()| model);
         let model = model_at(value).and_then(stable);
         if model.as_ref().is_ok_and(|m| m.setup().jumpers.is_empty()) {

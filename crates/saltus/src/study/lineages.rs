@@ -212,6 +212,8 @@ mod tests {
             v: vec![vec![0.0; heights.len()]],
             ranges: vec![([low, high], [low, high])],
             rest: 0.0,
+            exponent: None,
+            confidence: None,
         };
         let mut catalogue = Catalogue::default();
         catalogue.file(0, motion);

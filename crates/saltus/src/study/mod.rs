@@ -3,7 +3,7 @@
 mod attractor;
 mod basins;
 mod census;
-mod classify;
+mod doubt;
 mod ensemble;
 mod exponents;
 mod follow;
@@ -23,7 +23,6 @@ mod trajectory;
 pub use attractor::{Arrival, Attractor, Found, Kind, Lost, Range, Search, attractors};
 pub use basins::{Catalogue, Entry, SAME};
 pub use census::{Census, Counted};
-pub use classify::MAX_PERIOD;
 pub(crate) use ensemble::in_parallel;
 pub use ensemble::{Control, StudyError};
 pub use exponents::{Growth, Measurement, growth, lyapunov};
@@ -36,6 +35,7 @@ pub use orbits::{
     sequence, stroboscopic,
 };
 pub use recurrence::recurrence;
+pub use saltus_orbits::MAX_PERIOD;
 pub use settle::{Settled, settle};
 pub use starts::Starts;
 pub use sweep::{Pass, Sweep, SweepRow, sweep, sweep_many};

@@ -11,7 +11,7 @@ pub(super) fn basins(plane: &Plane, basins: &Basins) -> Figure {
     let chaos = basins
         .attractors
         .iter()
-        .position(|entry| entry.attractor.kind == Kind::NotPeriodic);
+        .position(|entry| entry.attractor.kind.never_repeats());
     let colours = Colour::SERIES.iter();
     let mut shown: Vec<(usize, Colour)> = (0..basins.attractors.len())
         .filter(|&place| Some(place) != chaos)
@@ -52,6 +52,8 @@ fn label(place: usize, entry: &Entry) -> String {
     let what = match motion.kind {
         Kind::Periodic(1) => "every forcing period".to_owned(),
         Kind::Periodic(n) => format!("every {n} periods"),
+        Kind::QuasiPeriodic => "quasi-periodic".to_owned(),
+        Kind::Chaotic => "chaotic".to_owned(),
         Kind::NotPeriodic | Kind::Undecided => "not periodic".to_owned(),
     };
     format!("{}: {what}, {:.0} % contact", place + 1, 100.0 * contact)

@@ -2,7 +2,7 @@
 
 use super::diagram::track;
 use super::{Run, kinds};
-use crate::commands::{base_motion, capitalized};
+use crate::commands::{base_in_title, capitalized};
 use crate::exit::Failure;
 use crate::folder::Folder;
 use crate::per_jumper::{PANELS, panel_title};
@@ -19,9 +19,9 @@ pub(super) fn write(folder: &mut Folder, run: &Run) -> Result<(), Failure> {
 }
 
 fn diagram(run: &Run) -> Figure {
-    let base = base_motion(run.study, &run.question.parameter);
-    let base = base.map_or(String::new(), |base| format!(": {base}"));
-    let title = format!("Branches of periodic orbits{base}");
+    let base = base_in_title(run.study, Some(&run.question.parameter));
+    let inertia = run.model.setup().inertia.name();
+    let title = format!("Branches of periodic orbits: {base}plate.inertia {inertia}");
     let jumpers = run.study.jumper.len();
     let shown = jumpers.min(PANELS);
     if shown == 1 {

@@ -20,6 +20,8 @@ pub(super) fn periods(plane: &Plane, layers: &Layers) -> Figure {
     });
     let others = [
         Class::new("Another period up to 32", Colour::OTHER),
+        Class::new("Quasi-periodic", Colour::TORUS),
+        Class::new("Chaotic", Colour::IRREGULAR),
         Class::new("Not periodic", Colour::IRREGULAR),
         Class::new("Undecided", Colour::UNDECIDED),
         Class::new("Failed", Colour::FAILED),
@@ -30,9 +32,11 @@ pub(super) fn periods(plane: &Plane, layers: &Layers) -> Figure {
             .iter()
             .position(|&i| PERIODS[i] == period)
             .map_or(other, |place| place as u8),
-        Status::NotPeriodic => other + 1,
-        Status::Undecided => other + 2,
-        _ => other + 3,
+        Status::QuasiPeriodic => other + 1,
+        Status::Chaotic => other + 2,
+        Status::NotPeriodic => other + 3,
+        Status::Undecided => other + 4,
+        _ => other + 5,
     };
     let cells: Vec<u8> = layers
         .status

@@ -65,7 +65,13 @@ fn question(study: &Study) -> Result<Plane, Failure> {
         .as_ref()
         .ok_or_else(|| Failure::refused("the study has no [map] table", EXAMPLE))?;
     plane::need_people(study, "a map")?;
-    Plane::new(&table.x, &table.y, table.transient, table.record)
+    Plane::new(
+        &table.x,
+        &table.y,
+        table.transient,
+        table.record,
+        table.exponent,
+    )
 }
 
 impl Gather for Layers {

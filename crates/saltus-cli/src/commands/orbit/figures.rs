@@ -2,6 +2,7 @@
 
 use super::Run;
 use crate::commands::portrait::{self, Motion};
+use crate::commands::setting;
 use crate::exit::Failure;
 use crate::folder::Folder;
 use saltus_results::{Axis, Figure, Portrait};
@@ -26,7 +27,7 @@ pub(super) fn write(folder: &mut Folder, run: &Run) -> Result<(), Failure> {
 
 fn title(run: &Run, what: &str) -> String {
     let period = run.orbit.period();
-    let setting = portrait::setting(run.study, &run.model);
+    let setting = setting(run.study, &run.model);
     format!("{what}, period {period}: {setting}")
 }
 

@@ -2,6 +2,7 @@
 
 use crate::status;
 use saltus::model::ModelError;
+use saltus::orbits::Exponent;
 use saltus::physics::PhysicsError;
 use saltus::study::{Attractor, Found, Kind, Lost};
 
@@ -65,6 +66,8 @@ pub(super) fn write(cell: &Cell, out: &mut Vec<u8>) {
                 Kind::Periodic(n) => (1, n),
                 Kind::NotPeriodic => (2, 0),
                 Kind::Undecided => (3, 0),
+                Kind::QuasiPeriodic => (4, 0),
+                Kind::Chaotic => (5, 0),
             };
             out.whole(kind);
             out.whole(n.into());
@@ -72,6 +75,8 @@ pub(super) fn write(cell: &Cell, out: &mut Vec<u8>) {
             out.numbers(&motion.contact_ratio);
             out.numbers(&motion.peak_reaction);
             out.numbers(&[motion.peak_acceleration, motion.rest]);
+            out.numbers(&[motion.confidence.unwrap_or(f64::NAN)]);
+            out.exponent(motion.exponent);
             motion
                 .z
                 .iter()
@@ -119,11 +124,15 @@ fn cell(from: &mut Reader) -> Option<Cell> {
         1 => Kind::Periodic(n),
         2 => Kind::NotPeriodic,
         3 => Kind::Undecided,
+        4 => Kind::QuasiPeriodic,
+        5 => Kind::Chaotic,
         _ => return None,
     };
     let bodies = usize::try_from(from.whole()?).ok()?;
     let (contact_ratio, peak_reaction) = (from.numbers(bodies)?, from.numbers(bodies)?);
     let (peak_acceleration, rest) = (from.number()?, from.number()?);
+    let confidence = Some(from.number()?).filter(|value| !value.is_nan());
+    let exponent = from.exponent()?;
     let mut lists =
         || -> Option<Vec<Vec<f64>>> { (0..bodies).map(|_| from.numbers(n as usize)).collect() };
     let (z, v) = (lists()?, lists()?);
@@ -142,12 +151,22 @@ fn cell(from: &mut Reader) -> Option<Cell> {
         v,
         ranges: (0..bodies).map(range).collect::<Option<_>>()?,
         rest,
+        exponent,
+        confidence,
     };
     Some(Cell {
         attractor: Ok(attractor),
         periods,
     })
 }
+
+/// What stands for none.
+const NO_EXPONENT: Exponent = Exponent {
+    per_iterate: 0.0,
+    standard_error: 0.0,
+    batches: 0,
+    batch_length: 0,
+};
 
 struct Writer<'a>(&'a mut Vec<u8>);
 
@@ -157,6 +176,13 @@ impl Writer<'_> {
     }
     fn numbers(&mut self, values: &[f64]) {
         values.iter().for_each(|v| self.whole(v.to_bits()));
+    }
+    fn exponent(&mut self, exponent: Option<Exponent>) {
+        let (there, e) = (exponent.is_some(), exponent.unwrap_or(NO_EXPONENT));
+        self.whole(there.into());
+        self.numbers(&[e.per_iterate, e.standard_error]);
+        self.whole(e.batches as u64);
+        self.whole(e.batch_length as u64);
     }
     fn text(&mut self, text: &str) {
         self.whole(text.len() as u64);
@@ -178,6 +204,16 @@ impl Reader<'_> {
     fn numbers(&mut self, count: usize) -> Option<Vec<f64>> {
         (0..count).map(|_| self.number()).collect()
     }
+    fn exponent(&mut self) -> Option<Option<Exponent>> {
+        let there = self.whole()? != 0;
+        let exponent = Exponent {
+            per_iterate: self.number()?,
+            standard_error: self.number()?,
+            batches: usize::try_from(self.whole()?).ok()?,
+            batch_length: usize::try_from(self.whole()?).ok()?,
+        };
+        Some(there.then_some(exponent))
+    }
     fn text(&mut self) -> Option<String> {
         let length = usize::try_from(self.whole()?).ok()?;
         let (text, rest) = self.0.split_at_checked(length)?;
@@ -188,7 +224,7 @@ impl Reader<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Cell, Loss, read, write};
+    use super::{Cell, Exponent, Loss, read, write};
     use saltus::study::{Attractor, Kind};
 
     fn cells() -> Vec<Cell> {
@@ -201,9 +237,18 @@ mod tests {
             v: vec![vec![5.0, 6.0], vec![7.0, 8.0]],
             ranges: vec![([1.0, 2.0], [5.0, 6.0]), ([3.0, 4.0], [7.0, 8.0])],
             rest: 1e-9,
+            exponent: None,
+            confidence: None,
         };
         let chaos = Attractor {
-            kind: Kind::NotPeriodic,
+            kind: Kind::Chaotic,
+            exponent: Some(Exponent {
+                per_iterate: 0.1,
+                standard_error: 0.01,
+                batches: 20,
+                batch_length: 64,
+            }),
+            confidence: Some(0.9999),
             z: vec![vec![]; 2],
             v: vec![vec![]; 2],
             ..cycle.clone()

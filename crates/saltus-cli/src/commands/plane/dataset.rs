@@ -36,6 +36,25 @@ pub(crate) fn dataset(title: &str, study: &Study, plane: &Plane, layers: Layers)
                 )
                 .units("m s-2"),
         );
+    let exponents = [
+        (
+            "exponent",
+            "Largest Lyapunov exponent per forcing period, where it says what the motion is",
+            layers.exponent,
+        ),
+        (
+            "exponent_error",
+            "Standard error of exponent",
+            layers.exponent_error,
+        ),
+    ];
+    for (name, long_name, values) in exponents {
+        dataset = dataset.variable(
+            Variable::new(name, &over, values)
+                .long_name(long_name)
+                .units("1"),
+        );
+    }
     let ratios = layers.contact_ratio.into_iter().zip(layers.peak_reaction);
     for (jumper, (contact, reaction)) in ratios.enumerate() {
         let contact = Variable::new(column("contact_ratio", jumper, jumpers), &over, contact);

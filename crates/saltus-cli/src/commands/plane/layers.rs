@@ -10,6 +10,8 @@ use std::collections::BTreeMap;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Status {
     Periodic,
+    QuasiPeriodic,
+    Chaotic,
     NotPeriodic,
     Undecided,
     NoModel,
@@ -21,8 +23,10 @@ pub(crate) enum Status {
 }
 
 impl Status {
-    pub(crate) const ALL: [Self; 8] = [
+    pub(crate) const ALL: [Self; 10] = [
         Self::Periodic,
+        Self::QuasiPeriodic,
+        Self::Chaotic,
         Self::NotPeriodic,
         Self::Undecided,
         Self::NoModel,
@@ -35,6 +39,8 @@ impl Status {
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Periodic => "periodic",
+            Self::QuasiPeriodic => "quasi-periodic",
+            Self::Chaotic => "chaotic",
             Self::NotPeriodic => "not-periodic",
             Self::Undecided => "undecided",
             Self::NoModel => "no-model",
@@ -49,6 +55,8 @@ impl Status {
         match &cell.attractor {
             Ok(motion) => match motion.kind {
                 Kind::Periodic(_) => Self::Periodic,
+                Kind::QuasiPeriodic => Self::QuasiPeriodic,
+                Kind::Chaotic => Self::Chaotic,
                 Kind::NotPeriodic => Self::NotPeriodic,
                 Kind::Undecided => Self::Undecided,
             },
@@ -75,6 +83,10 @@ pub(crate) struct Layers {
     pub(crate) contact_ratio: Vec<Vec<f64>>,
     pub(crate) peak_reaction: Vec<Vec<f64>>,
     pub(crate) peak_acceleration: Vec<f64>,
+    /// Largest Lyapunov exponent per forcing period, and its standard error; NaN where the returns of a cycle
+    /// told what the motion is.
+    pub(crate) exponent: Vec<f64>,
+    pub(crate) exponent_error: Vec<f64>,
     pub(crate) periods_run: Vec<u32>,
     /// The first pixel without a motion.
     pub(crate) first_loss: Option<(usize, Loss)>,
@@ -146,6 +158,11 @@ impl Layers {
         self.status.push(Status::of(cell));
         self.peak_acceleration
             .push(motion.map_or(f64::NAN, |m| m.peak_acceleration));
+        let exponent = motion.and_then(|m| m.exponent);
+        self.exponent
+            .push(exponent.map_or(f64::NAN, |e| e.per_iterate));
+        self.exponent_error
+            .push(exponent.map_or(f64::NAN, |e| e.standard_error));
         let run = u32::try_from(cell.periods).unwrap_or(u32::MAX);
         self.periods_run.push(run);
         for jumper in 0..self.contact_ratio.len() {
@@ -199,7 +216,10 @@ impl Layers {
 impl Tally {
     /// Pixels that are undecided or failed.
     pub(crate) fn without_attractor(&self) -> usize {
-        let known = [Status::Periodic, Status::NotPeriodic].map(Status::name);
+        let known = Status::ALL
+            .iter()
+            .filter(|status| **status < Status::Undecided);
+        let known: Vec<&str> = known.map(|status| status.name()).collect();
         let rest = self.status.iter().filter(|(name, _)| !known.contains(name));
         rest.map(|(_, pixels)| pixels).sum()
     }

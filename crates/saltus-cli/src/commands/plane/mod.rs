@@ -19,8 +19,7 @@ use serde::Serialize;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::capitalized;
-pub(super) use codec::Cell;
-use codec::Loss;
+pub(super) use codec::{Cell, Loss};
 pub(super) use dataset::dataset;
 pub(super) use figure::layers_figure;
 pub(super) use layers::{FirstFailure, Layers, Span, Status, Tally, span};
@@ -82,6 +81,7 @@ impl Plane {
         y: &AxisTable,
         transient: u32,
         record: u32,
+        exponent: u32,
     ) -> Result<Self, Failure> {
         Ok(Self {
             grid: Grid {
@@ -93,6 +93,7 @@ impl Plane {
             search: Search {
                 transient: transient.into(),
                 record: record.into(),
+                exponent: exponent.into(),
                 ..Search::default()
             },
         })

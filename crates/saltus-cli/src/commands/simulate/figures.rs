@@ -2,6 +2,7 @@
 
 use super::{Run, flights};
 use crate::commands::portrait::{self, Motion};
+use crate::commands::setting;
 use crate::exit::Failure;
 use crate::folder::Folder;
 use crate::per_jumper::{PANELS, panel_title};
@@ -13,10 +14,6 @@ pub(super) fn write(folder: &mut Folder, run: &Run) -> Result<(), Failure> {
     }
     folder.figure("portrait", &portraits(run))?;
     folder.figure("history", &histories(run))
-}
-
-fn setting(run: &Run) -> String {
-    portrait::setting(run.study, &run.model)
 }
 
 /// What the time history covers; less than a period of it counts as one.
@@ -32,7 +29,11 @@ fn portraits(run: &Run) -> Figure {
     let section = &run.trajectory.section;
     let first = run.transient() + 1;
     let motion = Motion {
-        title: format!("Phase portrait: {}, {}", setting(run), covered(run)),
+        title: format!(
+            "Phase portrait: {}, {}",
+            setting(run.study, &run.model),
+            covered(run)
+        ),
         states: &run.trajectory.history.states,
         section: section.get(run.transient()..).unwrap_or_default(),
         seen: format!("At cos Ωt = 1, periods {first} to {}", section.len()),
@@ -41,7 +42,11 @@ fn portraits(run: &Run) -> Figure {
 }
 
 fn histories(run: &Run) -> Figure {
-    let title = format!("Time history: {}, {}", setting(run), covered(run));
+    let title = format!(
+        "Time history: {}, {}",
+        setting(run.study, &run.model),
+        covered(run)
+    );
     let shown = run.jumpers().min(PANELS);
     let mut panels: Vec<Panel> = Vec::new();
     for jumper in 0..shown {
@@ -90,7 +95,10 @@ fn amplitudes(run: &Run) -> Figure {
     let kept = section.get(skipped..).unwrap_or_default();
     let periods: Vec<f64> = (1..=kept.len()).map(|i| (skipped + i) as f64).collect();
     let curves = Curves::new(
-        format!("Empty plate, once per forcing period: {}", setting(run)),
+        format!(
+            "Empty plate, once per forcing period: {}",
+            setting(run.study, &run.model)
+        ),
         Axis::new("Forcing period (-)"),
         Axis::new("Amplitude r/h (-)"),
     );

@@ -1,7 +1,7 @@
 //! The bifurcation diagram.
 
 use super::Run;
-use crate::commands::{base_motion, capitalized};
+use crate::commands::{base_in_title, capitalized};
 use crate::per_jumper::{PANELS, panel_title};
 use saltus::study::Pass;
 use saltus_results::{Axis, Cloud, Figure};
@@ -16,12 +16,11 @@ pub(super) fn bifurcation(run: &Run) -> Figure {
     Figure::grid(1, panels).title(title)
 }
 
-/// Said in the title, because a figure leaves its folder.
 fn setting(run: &Run) -> String {
-    let (sweep, base) = (&run.sweep, base_motion(run.study, &run.parameter));
+    let sweep = &run.sweep;
     format!(
         "{}{} forcing periods per value after {}",
-        base.map_or(String::new(), |base| format!("{base}, ")),
+        base_in_title(run.study, Some(&run.parameter)),
         sweep.record,
         sweep.transient
     )

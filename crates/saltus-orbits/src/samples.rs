@@ -15,9 +15,11 @@
 //! Where D is no longer above the noise of the integration it does not shrink either, and r_n = D.
 //!
 //! A motion whose returns are small, but visibly shrink or grow over four blocks in a row, or hardly change
-//! from one to the next, is [`Settling::Drifting`]: still coming to a cycle, or leaving an unstable one. Near
+//! from one to the next, is [`Recurrence::Drifting`]: still coming to a cycle, or leaving an unstable one. Near
 //! a bifurcation this is the honest answer after any finite number of periods. A torus narrower than
 //! about 0.05 eta may be taken for such a drift.
+
+use crate::Recurrence;
 
 /// Longest period looked for.
 pub const MAX_PERIOD: usize = 32;
@@ -47,21 +49,21 @@ const STEADY: f64 = 0.1;
 
 /// How much of a transient may be left.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Closeness {
+pub struct Closeness {
     /// Largest distance of a return (eta).
-    pub(crate) distance: f64,
+    pub distance: f64,
     /// Largest sum of the returns still to come (eta).
-    pub(crate) rest: f64,
+    pub rest: f64,
 }
 
 impl Closeness {
     /// Surely on the cycle: the rest of the transient can be left out.
-    pub(crate) const TIGHT: Self = Self {
+    pub const TIGHT: Self = Self {
         distance: 1e-7,
         rest: 1e-6,
     };
     /// Close enough to name the period when there is no more time.
-    pub(crate) const FAIR: Self = Self {
+    pub const FAIR: Self = Self {
         distance: 1e-4,
         rest: 1e-3,
     };
@@ -69,27 +71,22 @@ impl Closeness {
 
 /// A motion on a cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct OnCycle {
+pub struct OnCycle {
     /// Period of the cycle.
-    pub(crate) period: u32,
+    pub period: u32,
     /// Bound of what is still to come of the transient (eta).
-    pub(crate) rest: f64,
+    pub rest: f64,
 }
 
-/// What the samples say.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Settling {
-    /// On a cycle.
-    Settled(OnCycle),
-    /// Coming closer to some cycle, but not close enough to say to which, or leaving one.
-    Drifting,
-    /// Neither.
-    Open,
+impl From<OnCycle> for Recurrence {
+    fn from(OnCycle { period, rest }: OnCycle) -> Self {
+        Self::Recurs { period, rest }
+    }
 }
 
 /// The last samples of a motion, as many as a verdict may need.
 #[derive(Clone, Debug)]
-pub(crate) struct Samples {
+pub struct Samples {
     width: usize,
     /// Sample k stands at row k mod [`Self::ROWS`].
     rows: Vec<f64>,
@@ -97,11 +94,11 @@ pub(crate) struct Samples {
 }
 
 impl Samples {
-    /// Four blocks of 56 and one return of the longest period.
-    pub(crate) const ROWS: usize = 256;
+    /// How many are kept: four blocks of 56 and one return of the longest period.
+    pub const ROWS: usize = 256;
 
     /// Of `width` numbers each, in units of eta.
-    pub(crate) fn new(width: usize) -> Self {
+    pub fn new(width: usize) -> Self {
         Self {
             width,
             rows: vec![0.0; width * Self::ROWS],
@@ -109,18 +106,23 @@ impl Samples {
         }
     }
 
-    pub(crate) fn push(&mut self, fill: impl FnOnce(&mut [f64])) {
+    /// Adds a sample, which `fill` writes.
+    pub fn push(&mut self, fill: impl FnOnce(&mut [f64])) {
         let row = self.count % Self::ROWS;
         fill(&mut self.rows[row * self.width..(row + 1) * self.width]);
         self.count += 1;
     }
 
-    pub(crate) fn count(&self) -> usize {
+    /// Samples added so far.
+    pub fn count(&self) -> usize {
         self.count
     }
 
-    /// The sample `back` samples before the last.
-    pub(crate) fn back(&self, back: usize) -> &[f64] {
+    /// The sample `back` samples before the last; the last 256 are kept.
+    ///
+    /// # Panics
+    /// If there is none yet.
+    pub fn back(&self, back: usize) -> &[f64] {
         let row = (self.count - 1 - back) % Self::ROWS;
         &self.rows[row * self.width..(row + 1) * self.width]
     }
@@ -168,7 +170,7 @@ impl Samples {
     }
 
     /// Whether the motion is on a cycle, as closely as `limit` asks; `None` if it is not known to be.
-    pub(crate) fn settled(&self, limit: Closeness) -> Option<OnCycle> {
+    pub fn settled(&self, limit: Closeness) -> Option<OnCycle> {
         // most candidates are refused by one comparison
         let near = |n: &usize| self.count > *n && self.distance(0, *n) <= limit.distance;
         (1..=MAX_PERIOD).filter(near).find_map(|n| {
@@ -212,11 +214,11 @@ impl Samples {
     }
 
     /// What the samples say when there is no more time.
-    pub(crate) fn judge(&self) -> Settling {
+    pub fn judge(&self) -> Recurrence {
         match self.settled(Closeness::FAIR) {
-            Some(found) => Settling::Settled(found),
-            None if self.drifts() => Settling::Drifting,
-            None => Settling::Open,
+            Some(found) => found.into(),
+            None if self.drifts() => Recurrence::Drifting,
+            None => Recurrence::Open,
         }
     }
 }
@@ -238,9 +240,9 @@ mod tests {
         settled.map(|found| found.period)
     }
 
-    fn period(found: Settling) -> Option<u32> {
+    fn period(found: Recurrence) -> Option<u32> {
         match found {
-            Settling::Settled(found) => Some(found.period),
+            Recurrence::Recurs { period, .. } => Some(period),
             _ => None,
         }
     }
@@ -252,15 +254,15 @@ mod tests {
             assert_eq!(tight(200, cycle), Some(n as u32), "{n}");
         }
         let long = |k: f64| ((k as usize % 33) as f64 * 0.7).sin();
-        assert_eq!(samples(400, long).judge(), Settling::Open);
+        assert_eq!(samples(400, long).judge(), Recurrence::Open);
     }
 
     #[test]
     fn too_few_samples_say_nothing() {
-        assert_eq!(samples(17, |_| 1.0).judge(), Settling::Open);
+        assert_eq!(samples(17, |_| 1.0).judge(), Recurrence::Open);
         assert_eq!(period(samples(32, |_| 1.0).judge()), None);
         assert_eq!(tight(33, |_| 1.0), Some(1));
-        assert_eq!(samples(0, |_| 1.0).judge(), Settling::Open);
+        assert_eq!(samples(0, |_| 1.0).judge(), Recurrence::Open);
     }
 
     #[test]
@@ -291,7 +293,7 @@ mod tests {
         }
         // less slow: visibly on its way, then there
         let less = |k: f64| (-0.98_f64).powi(k as i32);
-        assert_eq!(samples(300, less).judge(), Settling::Drifting);
+        assert_eq!(samples(300, less).judge(), Recurrence::Drifting);
         assert_eq!(period(samples(1000, less).judge()), Some(1));
         assert_eq!(tight(2000, less), Some(1));
         // a faster decay in the same motion does not hide the alternating one
@@ -314,7 +316,7 @@ mod tests {
     #[test]
     fn what_never_repeats_stays_open() {
         let turn = |k: f64| (k * 0.618_034 * std::f64::consts::TAU).sin();
-        assert_eq!(samples(464, |k| 1e-3 * turn(k)).judge(), Settling::Open);
+        assert_eq!(samples(464, |k| 1e-3 * turn(k)).judge(), Recurrence::Open);
         let mut x = 0.3;
         let mut chaos = Samples::new(1);
         for _ in 0..464 {
@@ -322,7 +324,7 @@ mod tests {
             chaos.push(|row| row[0] = x);
             assert_eq!(chaos.settled(Closeness::FAIR), None);
         }
-        assert_eq!(chaos.judge(), Settling::Open);
+        assert_eq!(chaos.judge(), Recurrence::Open);
     }
 
     #[test]
@@ -331,7 +333,11 @@ mod tests {
         let sign = |k: f64| if k % 2.0 == 0.0 { 1.0 } else { -1.0 };
         let split = |k: f64| 0.3 * sign(k) / (1.0 + (-(k - 400.0) / 60.0).exp());
         for count in [300, 464, 600] {
-            assert_eq!(samples(count, split).judge(), Settling::Drifting, "{count}");
+            assert_eq!(
+                samples(count, split).judge(),
+                Recurrence::Drifting,
+                "{count}"
+            );
         }
         assert_eq!(period(samples(1500, split).judge()), Some(2));
     }
@@ -340,6 +346,6 @@ mod tests {
     fn leaving_an_unstable_cycle_is_not_settling() {
         let leaving = |k: f64| 1e-6 * 1.01_f64.powf(k);
         assert_eq!(tight(200, leaving), None);
-        assert_eq!(samples(464, leaving).judge(), Settling::Drifting);
+        assert_eq!(samples(464, leaving).judge(), Recurrence::Drifting);
     }
 }

@@ -1,0 +1,89 @@
+//! Sections whose samples connect along the parameter: where a cycle was met says nothing.
+
+use saltus::study::{Counted, Kind, Lineages, Row};
+use std::collections::BTreeMap;
+
+/// Samples [z/eta, z'/(eta omega_h)] of each body.
+pub(super) type Section = Vec<Vec<[f64; 2]>>;
+
+/// The sections of all attractors, row by row. A cycle begins where it is nearest to the same attractor at the
+/// value before at which that was a cycle too; the first one with its lowest sample of the first jumper.
+pub(super) fn connected(found: &Lineages) -> Vec<Vec<Section>> {
+    let mut before: BTreeMap<usize, Section> = BTreeMap::new();
+    let mut turned = |counted: &Counted| {
+        let mut section = counted.arrival.section.clone();
+        if matches!(counted.entry.attractor.kind, Kind::Periodic(_)) {
+            let turn = match before.get(&counted.identity) {
+                Some(before) => nearest(before, &section),
+                None => lowest(&section),
+            };
+            section.iter_mut().for_each(|body| body.rotate_left(turn));
+            before.insert(counted.identity, section.clone());
+        }
+        section
+    };
+    let row = |row: &Row| row.attractors().iter().map(&mut turned).collect();
+    found.rows.iter().map(row).collect()
+}
+
+fn samples(section: &Section) -> usize {
+    section.first().map_or(0, Vec::len)
+}
+
+fn lowest(section: &Section) -> usize {
+    let heights = section.iter().take(1).flatten().map(|[z, _]| *z);
+    heights
+        .enumerate()
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .map_or(0, |(place, _)| place)
+}
+
+/// The rotation with the least sum of squares of distances; the shorter of two cycles is run through again.
+fn nearest(before: &Section, section: &Section) -> usize {
+    let whole = samples(before).max(samples(section));
+    let apart = |turn: usize| -> f64 {
+        let bodies = before.iter().zip(section).flat_map(|(before, body)| {
+            let there = body.iter().cycle().skip(turn);
+            before.iter().cycle().zip(there).take(whole)
+        });
+        let square = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
+        bodies.map(square).sum()
+    };
+    (0..samples(section))
+        .map(|turn| (turn, apart(turn)))
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .map_or(0, |(turn, _)| turn)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn section(heights: &[f64]) -> Section {
+        vec![heights.iter().map(|&z| [z, -z]).collect()]
+    }
+
+    #[test]
+    fn a_cycle_begins_where_the_one_before_did() {
+        let before = section(&[5.0, 1.0, 3.0]);
+        assert_eq!(nearest(&before, &section(&[1.1, 3.1, 4.9])), 2);
+        assert_eq!(lowest(&before), 1);
+    }
+
+    #[test]
+    fn a_doubled_cycle_connects_and_so_does_a_halved_one() {
+        let (two, four) = (section(&[1.0, 5.0]), section(&[5.1, 0.9, 4.9, 1.2]));
+        // low, high, low, high; the sum is the same for two rotations, and the first is taken
+        assert_eq!(nearest(&two, &four), 1);
+        assert_eq!(nearest(&four, &two), 1);
+    }
+
+    #[test]
+    fn nothing_is_not_turned() {
+        for none in [vec![], vec![vec![]]] {
+            assert_eq!(lowest(&none), 0);
+            assert_eq!(nearest(&none, &none), 0);
+            assert_eq!(nearest(&none, &section(&[1.0, 2.0])), 0);
+        }
+    }
+}

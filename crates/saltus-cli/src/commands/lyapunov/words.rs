@@ -1,0 +1,60 @@
+//! What a motion is, and how sure that is, for people.
+
+use saltus::orbits::{Doubt, Nature};
+
+/// The name of a nature.
+pub(super) fn name(nature: Nature) -> &'static str {
+    match nature {
+        Nature::Periodic(_) => "periodic",
+        Nature::QuasiPeriodic => "quasi-periodic",
+        Nature::Chaotic => "chaotic",
+        Nature::Undecided(_) => "undecided",
+    }
+}
+
+/// What the name means, or why there is none and what may help.
+pub(super) fn meaning(nature: Nature) -> String {
+    let text = match nature {
+        Nature::Periodic(1) => "it repeats every forcing period, and small deviations die out",
+        Nature::Periodic(n) => {
+            return format!("it repeats every {n} forcing periods, and small deviations die out");
+        }
+        Nature::QuasiPeriodic => {
+            "it never repeats, yet small deviations neither grow nor die out: a torus"
+        }
+        Nature::Chaotic => "it never repeats, and small deviations grow, again and again",
+        Nature::Undecided(doubt) => reason(doubt),
+    };
+    text.to_owned()
+}
+
+fn reason(doubt: Doubt) -> &'static str {
+    match doubt {
+        Doubt::Sign => {
+            "the sign of the largest exponent is not certain; more lyapunov.periods may tell"
+        }
+        Doubt::Growth => {
+            "deviations grow, but not yet by more than what leaves an unstable cycle shows; \
+             more lyapunov.periods may tell"
+        }
+        Doubt::Drift => {
+            "it is still on its way to a cycle or from one; a longer lyapunov.transient may tell"
+        }
+        Doubt::NoPeriod => {
+            "deviations die out, but no period up to 64 is seen; a longer lyapunov.transient may tell"
+        }
+        Doubt::UnstableCycle => {
+            "it repeats while deviations grow: an unstable cycle, or a chaotic transient before a \
+             stable one; another [start] or a longer lyapunov.transient may tell"
+        }
+    }
+}
+
+/// A probability; what is not certain is never called so.
+pub(super) fn percent(confidence: f64) -> String {
+    if confidence > 0.9999 {
+        "> 99.99 %".to_owned()
+    } else {
+        format!("{:.2} %", 100.0 * confidence)
+    }
+}

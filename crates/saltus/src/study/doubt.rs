@@ -1,0 +1,276 @@
+//! What is a motion without a period? Its tangent is followed until the largest exponent tells.
+//!
+//! The verdict is [`judge`]'s, asked for whenever the record has doubled; samples go on to be taken, so a cycle
+//! that is reached meanwhile is found. Systems with and without tangents cannot share lanes, so this is a
+//! second round, for those that need it.
+
+use std::sync::OnceLock;
+
+use saltus_hybrid::{End, Leg, Method, Point, Sample, Status, System, Task, integrate_stream};
+use saltus_orbits::{Criteria, Nature, Recurrence, Samples, Spectrum, Verdict, judge};
+
+use super::attractor::{Found, Kind, Lost, Refused, coordinates, width};
+use super::{Control, Search, StudyError};
+use crate::model::{Model, ModelError};
+
+/// Periods in which the column turns into its direction.
+const ALIGNMENT: u64 = 40;
+
+/// Periods recorded before the first verdict; it doubles before each other one.
+const FIRST: u64 = 100;
+
+/// A motion that was found to have no period.
+pub(super) struct Doubtful {
+    number: usize,
+    found: Found,
+}
+
+impl Doubtful {
+    pub(super) fn new(number: usize, found: Found) -> Self {
+        Self { number, found }
+    }
+}
+
+/// Names the motions, into `sink`.
+pub(super) fn settle<F, E>(
+    mut doubtful: Vec<Doubtful>,
+    start_at: &F,
+    search: &Search,
+    control: &Control,
+    sink: &mut (impl FnMut(usize, Found) -> Result<(), E> + Send),
+) -> Result<(), E>
+where
+    F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
+    E: From<StudyError> + Send,
+{
+    let criteria = Criteria {
+        noise: noise(control),
+        ..Criteria::default()
+    };
+    // In an order of their own, whatever threads found them.
+    doubtful.sort_by_key(|one| one.number);
+    while !doubtful.is_empty() {
+        let structure = OnceLock::new();
+        let tasks = doubtful.into_iter().map(|one| Ascent {
+            number: one.number,
+            found: Some(one.found),
+            start_at,
+            search,
+            control,
+            criteria: &criteria,
+            structure: &structure,
+            motion: None,
+            done: false,
+        });
+        let mut later = Vec::new();
+        let take = |task: Ascent<'_, F>| match task.found {
+            Some(found) if task.done => sink(task.number, found).map_err(Refused::Sink),
+            Some(found) => {
+                later.push(Doubtful::new(task.number, found));
+                Ok(())
+            }
+            None => Ok(()),
+        };
+        let (options, threads) = (&control.options, control.threads);
+        integrate_stream(options, tasks, threads, &control.stop, take)
+            .map_err(Refused::into_error)?;
+        doubtful = later;
+        doubtful.sort_by_key(|one| one.number);
+    }
+    Ok(())
+}
+
+/// Error of the growth per period: a period has some twenty steps, each to the tolerance.
+fn noise(control: &Control) -> f64 {
+    match control.options.method {
+        Method::Taylor { tolerance, .. } => 20.0 * tolerance,
+        Method::Rk4 { .. } => 1e-6,
+    }
+}
+
+/// A motion with one column of its tangent.
+struct Ascent<'a, F> {
+    number: usize,
+    found: Option<Found>,
+    start_at: &'a F,
+    search: &'a Search,
+    control: &'a Control,
+    criteria: &'a Criteria,
+    structure: &'a OnceLock<System>,
+    motion: Option<Motion>,
+    done: bool,
+}
+
+struct Motion {
+    model: Model,
+    spectrum: Spectrum,
+    samples: Samples,
+    /// Periods recorded, and those after which to judge.
+    recorded: u64,
+    look: u64,
+    verdict: Option<(Verdict, Recurrence)>,
+    lost: bool,
+}
+
+impl<F> Ascent<'_, F>
+where
+    F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
+{
+    /// Everything for the run, or why there is none.
+    fn prepare(&self) -> Result<(Motion, Leg), Refusal> {
+        let arrival = self.found.as_ref().and_then(|found| found.arrival.as_ref());
+        let point = &arrival.ok_or(Refusal::Never)?.point;
+        let (model, _) = (self.start_at)(self.number).map_err(|_| Refusal::Never)?;
+        let spectrum = Spectrum::new(model.free_states(), 1).map_err(|_| Refusal::Never)?;
+        let system = model
+            .system()
+            .with_tangents(1)
+            .map_err(|_| Refusal::Never)?;
+        let first = self.structure.get_or_init(|| system.clone());
+        let system = system.sharing(first);
+        if !system.same_structure(first) {
+            return Err(Refusal::Later);
+        }
+        let mut start = system.point(&point.modes, &point.x[..model.free_states()]);
+        let column = spectrum.start_columns();
+        system.columns_mut(&mut start.x).copy_from_slice(&column);
+        let motion = Motion {
+            samples: Samples::new(width(&model)),
+            model,
+            spectrum,
+            recorded: 0,
+            look: FIRST.min(self.search.exponent),
+            verdict: None,
+            lost: false,
+        };
+        let leg = Leg {
+            system,
+            start,
+            periods: ALIGNMENT + self.search.exponent,
+        };
+        Ok((motion, leg))
+    }
+}
+
+/// Why a motion is not run on.
+enum Refusal {
+    /// Its system has another program than the others'.
+    Later,
+    /// Its tangent has no program; it stays what it was.
+    Never,
+}
+
+impl<F> Task for Ascent<'_, F>
+where
+    F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
+{
+    fn begin(&mut self) -> Option<Leg> {
+        match self.prepare() {
+            Ok((motion, leg)) => {
+                self.motion = Some(motion);
+                Some(leg)
+            }
+            Err(refusal) => {
+                self.done = matches!(refusal, Refusal::Never);
+                None
+            }
+        }
+    }
+
+    fn sample(&mut self, sample: &Sample<'_>) -> bool {
+        self.control.count_period();
+        let Some(motion) = &mut self.motion else {
+            return false;
+        };
+        let model = &motion.model;
+        motion.samples.push(|row| coordinates(model, sample.x, row));
+        motion.recorded = sample.period.saturating_sub(ALIGNMENT);
+        // The column of this period comes after this call.
+        if sample.period <= ALIGNMENT + 1 {
+            motion.spectrum.forget();
+        }
+        if motion.recorded > motion.look {
+            motion.judge(self.criteria);
+            motion.look *= 2;
+        }
+        let open = motion
+            .verdict
+            .is_none_or(|(verdict, _)| verdict.needs_more());
+        open && !motion.lost
+    }
+
+    fn tangents(&mut self, columns: &mut [f64]) {
+        if let Some(motion) = &mut self.motion {
+            motion.lost |= motion.spectrum.feed(columns).is_err();
+        }
+    }
+
+    fn end(&mut self, end: End) -> Option<Leg> {
+        let mut motion = self.motion.take()?;
+        let found = self.found.as_mut()?;
+        self.done = true;
+        found.periods += end.periods;
+        if end.status != Status::Completed {
+            found.attractor = Err(Lost::Ended(end.status));
+            found.arrival = None;
+            return None;
+        }
+        if motion
+            .verdict
+            .is_none_or(|(verdict, _)| verdict.needs_more())
+        {
+            motion.judge(self.criteria);
+        }
+        if let Some(arrival) = &mut found.arrival {
+            let states = arrival.point.x.len();
+            arrival.point = Point {
+                modes: end.point.modes,
+                x: end.point.x[..states].to_vec(),
+            };
+        }
+        motion.name(found);
+        None
+    }
+}
+
+impl Motion {
+    fn judge(&mut self, criteria: &Criteria) {
+        let again = self.samples.judge();
+        self.verdict = Some((judge(&self.spectrum, again, criteria), again));
+    }
+
+    /// Writes the verdict down.
+    fn name(&self, found: &mut Found) {
+        let (Ok(motion), Some((verdict, again))) = (&mut found.attractor, self.verdict) else {
+            return;
+        };
+        motion.exponent = Some(verdict.exponent);
+        motion.confidence = Some(verdict.confidence);
+        motion.kind = match verdict.nature {
+            Nature::Periodic(n) => Kind::Periodic(n),
+            Nature::QuasiPeriodic => Kind::QuasiPeriodic,
+            Nature::Chaotic => Kind::Chaotic,
+            Nature::Undecided(_) => Kind::Undecided,
+        };
+        if let (Kind::Periodic(n), Recurrence::Recurs { rest, .. }) = (motion.kind, again) {
+            let bodies = motion.z.len();
+            let column = |i: usize| {
+                (0..n as usize)
+                    .rev()
+                    .map(move |back| self.samples.back(back)[i])
+            };
+            motion.rest = rest;
+            motion.z = (0..bodies).map(|body| column(body).collect()).collect();
+            motion.v = (bodies..2 * bodies)
+                .map(|body| column(body).collect())
+                .collect();
+            if let Some(arrival) = &mut found.arrival {
+                let pairs = |body: usize| {
+                    let pairs = column(body).zip(column(bodies + body));
+                    pairs.map(|(z, v)| [z, v]).collect()
+                };
+                arrival.section = (0..bodies).map(pairs).collect();
+            }
+        }
+    }
+}
