@@ -189,11 +189,12 @@ pub(crate) const CONTINUE: &str = "\
 The study needs a [continue] table; `saltus init paper` shows one. The first
 orbit is sought at the study's own value of continue.parameter, or taken from an
 earlier result with --from DIR --at LABEL: then the parameter of that result
-gets the value there, and the study may have another range or parameter.
-An HP restarts with the orbit of half the period.
+gets the value there, and the study may have another range or parameter. An HP
+restarts with the orbit of half the period.
+
 Branches are followed through their folds, and from their period doublings and
 branch points to others. [continue.second] follows special points over two
-parameters.
+parameters; a curve that ends early or fails says so and stops no other.
 
 Special points: LP fold, PD period doubling, HP where a branch meets that of
 half its period, NS Neimark-Sacker, BP branch point, GR grazing, SO order of

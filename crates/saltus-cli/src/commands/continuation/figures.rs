@@ -21,7 +21,7 @@ pub(super) fn write(folder: &mut Folder, run: &Run) -> Result<(), Failure> {
 fn diagram(run: &Run) -> Figure {
     let base = base_in_title(run.study, Some(&run.question.parameter));
     let inertia = run.model.setup().inertia.name();
-    let title = format!("Branches of periodic orbits: {base}plate.inertia {inertia}");
+    let title = format!("Branches of periodic orbits: {base}in-plane inertia {inertia}");
     let jumpers = run.study.jumper.len();
     let shown = jumpers.min(PANELS);
     if shown == 1 {
