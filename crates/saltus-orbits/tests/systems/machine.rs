@@ -1,0 +1,154 @@
+//! What every test here begins with: maps of systems, their orbits and branches, their exponents.
+
+use std::sync::atomic::AtomicBool;
+
+use saltus_hybrid::{End, Leg, Method, Options, Sample, Status, System, Task, integrate_all};
+use saltus_orbits::{
+    Along, Branch, ContinuationOptions, CurvePoint, Family, NewtonOptions, Orbit, Place, Shot,
+    Special, Spectrum, Stroboscopic, find_orbit, follow_both, follow_curve,
+};
+
+pub(crate) static STOP: AtomicBool = AtomicBool::new(false);
+
+/// Errors of a period are some 1e-14, so that an orbit is limited by the tolerance of Newton's method.
+pub(crate) fn options() -> Options {
+    Options {
+        method: Method::Taylor {
+            tolerance: 1e-14,
+            order: 22,
+        },
+        ..Options::default()
+    }
+}
+
+pub(crate) fn map<F>(dimension: usize, system_at: F) -> Stroboscopic<'static, F>
+where
+    F: Fn(&[f64]) -> Result<System, String> + Sync,
+{
+    Stroboscopic::new(system_at, dimension, options(), 1, &STOP)
+}
+
+pub(crate) fn place(modes: &[usize], x: &[f64]) -> Place {
+    Place {
+        modes: modes.to_vec(),
+        x: x.to_vec(),
+    }
+}
+
+/// Where the motion from `at` is after so many periods.
+pub(crate) fn settled(
+    map: &impl Family,
+    parameters: &[f64],
+    mut at: Place,
+    periods: usize,
+) -> Place {
+    for _ in 0..periods {
+        let shot = Shot {
+            parameters,
+            start: &at,
+            derivative: false,
+        };
+        at = map.images(&[shot]).remove(0).unwrap().place;
+    }
+    at
+}
+
+pub(crate) fn orbit(map: &impl Family, parameters: &[f64], at: Place) -> Orbit {
+    find_orbit(map, parameters, &[at], &NewtonOptions::default()).unwrap()
+}
+
+pub(crate) fn along(parameter: usize, from: f64, to: f64) -> Along {
+    Along {
+        parameter,
+        from,
+        to,
+    }
+}
+
+pub(crate) fn both(map: &impl Family, start: &Orbit, range: &Along) -> Branch {
+    let options = ContinuationOptions::default();
+    follow_both(map, start, range, &options, &mut |_| true).unwrap()
+}
+
+/// The special point of a branch of this short name; there is one.
+pub(crate) fn only<'a>(branch: &'a Branch, short: &str) -> &'a Special {
+    let mut all = branch.specials.iter().filter(|s| s.kind.short() == short);
+    let first = all.next().unwrap();
+    assert_eq!(all.next(), None);
+    first
+}
+
+/// The points of the curve of a special point over two parameters, at least ten.
+pub(crate) fn curve(map: &impl Family, start: &Special, over: [&Along; 2]) -> Vec<CurvePoint> {
+    let options = ContinuationOptions::default();
+    let curve = follow_curve(map, start, over, &options, &mut |_| true).unwrap();
+    assert!(curve.points.len() >= 10, "{:?}", curve.ends);
+    curve.points
+}
+
+/// Short names of the special points.
+pub(crate) fn kinds(branch: &Branch) -> Vec<&str> {
+    branch.specials.iter().map(|s| s.kind.short()).collect()
+}
+
+/// The record of all exponents from each start, after a transient.
+pub(crate) fn exponents(
+    system: &System,
+    starts: &[Vec<f64>],
+    transient: u64,
+    periods: u64,
+) -> Spectrum {
+    let n = starts[0].len();
+    let system = system.with_tangents(n).unwrap();
+    let tasks = starts.iter().map(|x| {
+        let spectrum = Spectrum::new(n, n).unwrap();
+        let mut start = system.point(&[], x);
+        let columns = spectrum.start_columns();
+        system.columns_mut(&mut start.x).copy_from_slice(&columns);
+        Climb {
+            leg: Some(Leg {
+                system: system.clone(),
+                start,
+                periods: transient + periods,
+            }),
+            transient,
+            spectrum,
+        }
+    });
+    let ended = integrate_all(&options(), tasks.collect(), 1, &STOP).unwrap();
+    let records = ended.into_iter().map(|climb| climb.spectrum);
+    let merge = |mut all: Spectrum, one: Spectrum| {
+        all.merge(&one).unwrap();
+        all
+    };
+    records.reduce(merge).unwrap()
+}
+
+struct Climb {
+    leg: Option<Leg>,
+    transient: u64,
+    spectrum: Spectrum,
+}
+
+impl Task for Climb {
+    fn begin(&mut self) -> Option<Leg> {
+        self.leg.take()
+    }
+
+    fn sample(&mut self, sample: &Sample<'_>) -> bool {
+        // The columns of this period come after this call.
+        if sample.period <= self.transient + 1 {
+            self.spectrum.forget();
+        }
+        true
+    }
+
+    fn tangents(&mut self, columns: &mut [f64]) {
+        self.spectrum.feed(columns).unwrap();
+    }
+
+    fn end(&mut self, end: End) -> Option<Leg> {
+        assert_eq!(end.status, Status::Completed);
+        None
+    }
+}

@@ -1,0 +1,13 @@
+//! Oscillators, billiards and a valve with known answers, from their equations to their bifurcations.
+#![allow(clippy::unwrap_used)]
+
+mod ball;
+mod bilinear;
+mod duffing;
+mod impact;
+mod independent;
+mod lorenz;
+mod machine;
+mod mathieu;
+mod valve;
+mod wall;
