@@ -20,8 +20,9 @@ use curves::Followed;
 use origin::Origin;
 use question::Question;
 use report::Report;
+use saltus::hybrid::System;
 use saltus::model::{Model, ModelError};
-use saltus::orbits::{Family, Limb, NewtonOptions, Orbit, branches, find_orbit};
+use saltus::orbits::{Limb, NewtonOptions, Orbit, Stroboscopic, branches, find_orbit};
 use saltus::study::{Control, OrbitSearch, Pass, Sweep, SweepRow, orbit_of, stroboscopic, sweep};
 use saltus_config::Study;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -85,24 +86,10 @@ fn follow<'a>(
         found.fetch_add(1, Ordering::Relaxed);
         !control.stop.load(Ordering::Relaxed)
     };
-    let first = || -> Result<Orbit, Failure> {
-        match origin {
-            Some(origin) => restart(&family, &question, &origin.places(&model)?),
-            None => {
-                let start = model.start(study.start.z, study.start.v);
-                let search = search(&question);
-                orbit_of(&family, &model, &question.start, &start, &search, control).map_err(|e| {
-                    Failure::from(e).advise(
-                        "[start], continue.transient and continue.period say where the search begins",
-                    )
-                })
-            }
-        }
-    };
     let limbs = progress::count("points of branches", quiet, &found, || {
         let (options, along) = (question.options(), question.along());
-        branches(&family, &first()?, &along, &options, &mut |_| go_on())
-            .map_err(Failure::computation)
+        let first = first(&family, &model, study, &question, origin, control)?;
+        branches(&family, &first, &along, &options, &mut |_| go_on()).map_err(Failure::computation)
     });
     interrupt::check()?;
     let limbs = limbs?;
@@ -125,25 +112,41 @@ fn follow<'a>(
     })
 }
 
-fn search(question: &Question) -> OrbitSearch {
-    let table = question.table;
-    OrbitSearch {
+/// The orbit that the branches begin with.
+fn first<F>(
+    family: &Stroboscopic<'_, F>,
+    model: &Model,
+    study: &Study,
+    question: &Question,
+    origin: Option<&Origin>,
+    control: &Control,
+) -> Result<Orbit, Failure>
+where
+    F: Fn(&[f64]) -> Result<System, String> + Sync,
+{
+    let (table, values) = (question.table, &question.start);
+    if let Some(origin) = origin {
+        let found = find_orbit(
+            family,
+            values,
+            &origin.places(model),
+            &NewtonOptions::default(),
+        );
+        return found.map_err(|error| {
+            Failure::computation(error).advise(
+                "the study must be near the one of the result: change fewer numbers at once",
+            )
+        });
+    }
+    let start = model.start(study.start.z, study.start.v);
+    let search = OrbitSearch {
         period: (table.period > 0).then_some(table.period as usize),
         transient: table.transient.into(),
         segments: None,
-    }
-}
-
-/// The orbit of an earlier result, in this study.
-fn restart(
-    family: &impl Family,
-    question: &Question,
-    places: &[saltus::orbits::Place],
-) -> Result<Orbit, Failure> {
-    let found = find_orbit(family, &question.start, places, &NewtonOptions::default());
-    found.map_err(|error| {
-        Failure::computation(error)
-            .advise("the study must be near the one of the result: change fewer numbers at once")
+    };
+    orbit_of(family, model, values, &start, &search, control).map_err(|error| {
+        Failure::from(error)
+            .advise("[start], continue.transient and continue.period say where the search begins")
     })
 }
 

@@ -125,11 +125,11 @@ impl Origin {
     }
 
     /// Its places in the units of `model`.
-    pub(super) fn places(&self, model: &Model) -> Result<Vec<Place>, Failure> {
+    pub(super) fn places(&self, model: &Model) -> Vec<Place> {
         let here = |there: &Place| {
             let point = point(&self.model, there);
             place(model, &model.carry(&self.model, &point))
         };
-        Ok(self.places.iter().map(here).collect())
+        self.places.iter().map(here).collect()
     }
 }
