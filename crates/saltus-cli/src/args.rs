@@ -38,6 +38,12 @@ pub(crate) enum Command {
     /// Which long-term motion each first state leads to
     #[command(after_help = help::BASINS)]
     Basins(PlaneArgs),
+    /// The periodic orbit near the long-term motion, stable or not
+    #[command(after_help = help::ORBIT)]
+    Orbit(WorkArgs),
+    /// Branches of periodic orbits while one parameter changes, with their bifurcations
+    #[command(after_help = help::CONTINUE)]
+    Continue(ContinueArgs),
     /// Lyapunov exponents of the long-term motion, with their errors
     #[command(after_help = help::LYAPUNOV)]
     Lyapunov(WorkArgs),
@@ -137,6 +143,18 @@ pub(crate) struct PlaneArgs {
     /// Go on with an interrupted run of the same command; starts anew if there is none
     #[arg(long, requires = "out")]
     pub(crate) resume: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ContinueArgs {
+    #[command(flatten)]
+    pub(crate) work: WorkArgs,
+    /// Begin at an orbit of this earlier result instead of at [start]
+    #[arg(long, value_name = "DIR", requires = "at")]
+    pub(crate) from: Option<PathBuf>,
+    /// Which orbit: the label of a special point, such as PD1
+    #[arg(long, value_name = "LABEL", requires = "from")]
+    pub(crate) at: Option<String>,
 }
 
 #[derive(Debug, Args)]

@@ -13,7 +13,7 @@ use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 use saltus::hybrid::IntegrateError;
 use saltus::model::ModelError;
 use saltus::physics::PhysicsError;
-use saltus::study::StudyError as RunError;
+use saltus::study::{OrbitError, StudyError as RunError};
 use saltus_config::{StudyError, StudyErrorKind};
 use saltus_results::ResultsError;
 use std::fmt;
@@ -135,6 +135,17 @@ impl Failure {
         }
     }
 
+    /// The same with what to try, if it is a computation that failed.
+    pub(crate) fn advise(self, advice: impl Into<String>) -> Self {
+        match self {
+            Self::Computation { message, .. } => Self::Computation {
+                message,
+                help: Some(advice.into()),
+            },
+            other => other,
+        }
+    }
+
     fn code(&self) -> u8 {
         match self {
             Self::Lost(reason) => reason.code(),
@@ -153,6 +164,16 @@ impl From<RunError> for Failure {
         match error {
             RunError::Integrate(IntegrateError::Interrupted) => Self::Interrupted,
             RunError::Model(error) => error.into(),
+            other => Self::computation(other),
+        }
+    }
+}
+
+impl From<OrbitError> for Failure {
+    fn from(error: OrbitError) -> Self {
+        match error {
+            error if error.is_interrupt() => Self::Interrupted,
+            OrbitError::Study(error) => error.into(),
             other => Self::computation(other),
         }
     }

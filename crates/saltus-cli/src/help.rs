@@ -145,6 +145,87 @@ Folder (--out):
 
 --resume as in `saltus map`.";
 
+/// Below `saltus orbit --help`.
+pub(crate) const ORBIT: &str = "\
+Newton's method from the motion that [start] leads to after orbit.transient
+periods. With orbit.period = 0 the orbit is one that this motion is near, in
+chaos an unstable one; otherwise one of orbit.period forcing periods, or of a
+part of them if it closes sooner. The integration has a tolerance of 1e-13
+whatever [solver] says.
+
+JSON (--json, and orbit.json in --out):
+  period          forcing periods after which it closes
+  asked           orbit.period; null if that is 0
+  section         its points at cos(Omega t) = 1, period many, as in
+                  `saltus simulate`: z, v, w, phase
+  multipliers     Floquet multipliers [re, im] of the whole orbit, by falling
+                  modulus
+  stable          whether all of them lie inside the unit circle
+  outside         how many lie outside
+  switches        once around, as in `saltus simulate`: time (s) since the first
+                  point, jumper, kind
+  sequence        the order of its switches: T take-off, L landing (with the
+                  number of the jumper from 1 if there are several), | between
+                  forcing periods
+  contact_ratio   part of the time on the floor (-)
+  landing_phases  of each touch-down, Omega t in (0, 2 pi] (rad)
+  peak_prf        largest plate reaction force (body weights)
+  residual        largest gap left between the pieces of the orbit (h, h Omega)
+  iterations      steps of Newton's method
+  segments        pieces that it joined
+  base_hz, period_s (of one forcing period), version, study (as resolved)
+  contact_ratio, landing_phases and peak_prf are of one jumper, or a list for
+  several.
+
+Folder (--out):
+  study.toml, orbit.json, section.csv, multipliers.csv, switches.csv and the
+  figures portrait and multipliers as SVG and PNG.
+
+If no orbit is found the exit code is 1, and the message says how far the search
+came.";
+
+/// Below `saltus continue --help`.
+pub(crate) const CONTINUE: &str = "\
+The study needs a [continue] table; `saltus init paper` shows one. The first
+orbit is sought at the study's own value of continue.parameter, or taken from an
+earlier result with --from DIR --at LABEL: then the parameter of that result
+gets the value there, and the study may have another range or parameter. An HP
+restarts with the orbit of half the period.
+
+Branches are followed through their folds, and from their period doublings and
+branch points to others. [continue.second] follows special points over two
+parameters; a curve that ends early or fails says so and stops no other.
+
+Special points: LP fold, PD period doubling, HP where a branch meets that of
+half its period, NS Neimark-Sacker, BP branch point, GR grazing, SO order of
+switches.
+
+JSON (--json, and continue.json in --out):
+  parameter, unit, label, from, to
+                  what changes; second likewise, null without curves
+  special_points  label, kind (PD, ...), name, branch, value of the parameter,
+                  period (forcing periods), outside (Floquet multipliers outside
+                  the unit circle before and after, in the order of the branch),
+                  angle of the multipliers on the circle (rad, NS only),
+                  sequence of switches as in `saltus orbit`, remark, section as
+                  in `saltus simulate`; orbit_value and state (modes, x in the
+                  units of the model) restart it
+  branches        branch (from 0), origin (label of the special point where it
+                  begins; null for the first), period, ends (two, in words) and
+    points        in their order along the branch: value, stable, outside,
+                  multiplier (the largest, [re, im]), sequence, section
+  complete        false if there are more branches than are followed
+  curves          label, kind, ends (two, in words), error (null, or why there
+                  is none) and points: values of both parameters, period, angle
+  version, study (as resolved)
+
+Folder (--out):
+  study.toml, continue.json, branches.csv (one line per point and place of the
+  orbit), special_points.csv, ends.csv, curves.csv, and the figures branches and
+  curves as SVG and PNG. Behind the branches lie the long-term motions at
+  continue.cloud values, 50 forcing periods after 150, the state carried on
+  upwards and downwards.";
+
 /// Below `saltus lyapunov --help`.
 pub(crate) const LYAPUNOV: &str = "\
 The motion from [start] is run for lyapunov.transient forcing periods. From
@@ -257,6 +338,8 @@ mod tests {
             super::SWEEP,
             super::MAP,
             super::BASINS,
+            super::ORBIT,
+            super::CONTINUE,
             super::LYAPUNOV,
             super::ATTRACTORS,
         ];

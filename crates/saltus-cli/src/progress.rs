@@ -20,10 +20,36 @@ pub(crate) fn follow<T>(
     done: &AtomicU64,
     work: impl FnOnce() -> T,
 ) -> T {
+    let bar = || {
+        styled(
+            ProgressBar::new(total),
+            "{wide_bar} {pos}/{len}, {eta} left",
+        )
+    };
+    watch(bar, what, quiet, done, work)
+}
+
+/// As [`follow`] where nobody knows how much there is to do.
+pub(crate) fn count<T>(what: &str, quiet: bool, done: &AtomicU64, work: impl FnOnce() -> T) -> T {
+    let bar = || styled(ProgressBar::new_spinner(), "{spinner} {pos}, {elapsed}");
+    watch(bar, what, quiet, done, work)
+}
+
+fn watch<T>(
+    bar: impl FnOnce() -> ProgressBar,
+    what: &str,
+    quiet: bool,
+    done: &AtomicU64,
+    work: impl FnOnce() -> T,
+) -> T {
     if quiet || !io::stderr().is_terminal() {
         return work();
     }
-    let bar = &Cleared(bar(total, what, done.load(Ordering::Relaxed)));
+    let bar = bar()
+        .with_message(what.to_owned())
+        .with_position(done.load(Ordering::Relaxed));
+    bar.reset_eta();
+    let bar = &Cleared(bar);
     thread::scope(|scope| {
         // dropped when the work is done, also by a panic, and that ends the watch
         let (_working, watch) = mpsc::channel::<()>();
@@ -36,15 +62,11 @@ pub(crate) fn follow<T>(
     })
 }
 
-fn bar(total: u64, what: &str, already: u64) -> ProgressBar {
-    let bar = ProgressBar::new(total)
-        .with_message(what.to_owned())
-        .with_position(already);
-    bar.reset_eta();
-    if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len}, {eta} left") {
-        bar.set_style(style);
+fn styled(bar: ProgressBar, template: &str) -> ProgressBar {
+    match ProgressStyle::with_template(&format!("{{msg}} {template}")) {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
     }
-    bar
 }
 
 /// A bar that leaves its line: a message must not follow half of it.

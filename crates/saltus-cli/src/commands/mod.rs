@@ -3,12 +3,16 @@
 mod attractors;
 mod basins;
 mod check;
+mod continuation;
 mod frequencies;
 mod init;
 mod lyapunov;
 mod map;
 mod models;
+mod motion;
+mod orbit;
 mod plane;
+mod portrait;
 mod repeats;
 mod reproduce;
 mod schema;
@@ -38,6 +42,8 @@ pub(crate) fn run(command: Command) -> Result<(), Failure> {
         Command::Sweep(args) => sweep::run(&args),
         Command::Map(args) => map::run(&args),
         Command::Basins(args) => basins::run(&args),
+        Command::Orbit(args) => orbit::run(&args),
+        Command::Continue(args) => continuation::run(&args),
         Command::Lyapunov(args) => lyapunov::run(&args),
         Command::Attractors(args) => attractors::run(&args),
     }

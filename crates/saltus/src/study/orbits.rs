@@ -6,7 +6,8 @@ use std::f64::consts::TAU;
 use saltus_hybrid::{Leg, Method, Options, Point, Status, System, record};
 use saltus_orbits::{Lost, NewtonOptions, NotFound, Orbit, Place, Stroboscopic, find_orbit};
 
-use super::trajectory::{TrajectorySwitch, simulate};
+use super::settle::settle;
+use super::trajectory::{History, TrajectorySwitch, simulate};
 use super::{Control, MAX_PERIOD, StudyError};
 use crate::model::{Contact, Model, ModelError, Section};
 
@@ -169,27 +170,33 @@ where
     })
 }
 
-/// The samples that end with the transient, the last ones of as many periods as an orbit may have. There is at
-/// least one more than that.
+/// The state behind the transient and the samples after it, for as many periods as an orbit may have.
 fn run(
     model: &Model,
     start: &Point,
     search: &OrbitSearch,
     control: &Control,
 ) -> Result<Vec<Point>, OrbitError> {
-    let back = search.period.unwrap_or(MAX_PERIOD) as u64;
+    let mut start = start.clone();
+    if search.transient > 0 {
+        let settled = settle(&[(model.clone(), start)], search.transient, 0, control)?.remove(0);
+        if settled.status != Status::Completed {
+            return Err(OrbitError::Ended(settled.status));
+        }
+        start = settled.end;
+    }
     let leg = Leg {
         system: model.system().clone(),
         start: start.clone(),
-        periods: search.transient + back,
+        periods: search.period.unwrap_or(MAX_PERIOD) as u64,
     };
     let way = record(&leg, &control.options).map_err(StudyError::from)?;
     if way.end.status != Status::Completed {
         return Err(OrbitError::Ended(way.end.status));
     }
-    let mut points = vec![start.clone()];
+    let mut points = vec![start];
     points.extend(way.samples);
-    Ok(points.split_off(points.len() - 1 - back as usize))
+    Ok(points)
 }
 
 fn is_near(model: &Model, orbit: &Orbit, way: &[Point]) -> bool {
@@ -231,6 +238,8 @@ pub struct Portrait {
     pub landing_phases: Vec<Vec<f64>>,
     /// Largest plate reaction force on each body, in units of its weight.
     pub peak_reaction: Vec<f64>,
+    /// The way around, at 2000 equal times per forcing period.
+    pub history: History,
 }
 
 /// Follows an orbit of `model` once around.
@@ -279,6 +288,7 @@ pub fn portrait(model: &Model, orbit: &Orbit, control: &Control) -> Result<Portr
         landing_phases: (0..bodies).map(landings).collect(),
         peak_reaction: (0..bodies).map(peak).collect(),
         switches: way.switches,
+        history: way.history,
     })
 }
 

@@ -34,9 +34,9 @@ pub(super) fn run(args: &WorkArgs) -> Result<(), Failure> {
     let control = super::control(&study, &args.threads);
     let folder = super::folder(&args.output, &study)?;
     let swept = parameter.as_ref();
-    let models = swept.map(|parameter| Models::new(&study, parameter, control.options));
+    let models = swept.map(|parameter| Models::new(&study, &[parameter], control.options));
     let model_at = |value| match &models {
-        Some(models) => models.at(value),
+        Some(models) => models.at(&[value]),
         None => study.setup().model(),
     };
     let (starts, search) = plan(&study);

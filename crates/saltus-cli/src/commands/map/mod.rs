@@ -1,15 +1,14 @@
 //! `saltus map`: long-term motion at each point of a plane of two parameters.
 
 mod figures;
-mod models;
 mod report;
 mod summary;
 
+use super::models::Models;
 use super::plane::{self, Cell, Gather, Layers, Plane};
 use crate::args::PlaneArgs;
 use crate::exit::Failure;
 use crate::folder::Folder;
-use models::Models;
 use report::Report;
 use saltus_config::Study;
 
@@ -33,10 +32,14 @@ pub(super) fn run(args: &PlaneArgs) -> Result<(), Failure> {
     let study = super::load(&args.work.study, &[])?;
     let plane = question(&study)?;
     let control = super::control(&study, &args.work.threads);
-    let models = Models::new(&study, &plane, control.options);
+    let models = Models::new(
+        &study,
+        &[&plane.y.parameter, &plane.x.parameter],
+        control.options,
+    );
     let start_at = |pixel| {
         let (x, y) = plane.grid.at(pixel);
-        let model = models.at(x, y)?;
+        let model = models.at(&[y, x])?;
         let start = model.start(study.start.z, study.start.v);
         Ok((model, start))
     };

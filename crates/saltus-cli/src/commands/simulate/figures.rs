@@ -1,11 +1,12 @@
 //! The figures of a run: phase portrait and time history of each jumper.
 
 use super::{Run, flights};
+use crate::commands::portrait::{self, Motion};
 use crate::commands::setting;
 use crate::exit::Failure;
 use crate::folder::Folder;
 use crate::per_jumper::{PANELS, panel_title};
-use saltus_results::{Axis, Curves, Figure, History, Panel, Portrait};
+use saltus_results::{Axis, Curves, Figure, History, Panel};
 
 pub(super) fn write(folder: &mut Folder, run: &Run) -> Result<(), Failure> {
     if run.jumpers() == 0 {
@@ -25,42 +26,19 @@ fn covered(run: &Run) -> String {
 }
 
 fn portraits(run: &Run) -> Figure {
-    let title = format!(
-        "Phase portrait: {}, {}",
-        setting(run.study, &run.model),
-        covered(run)
-    );
-    let shown = run.jumpers().min(PANELS);
-    if shown == 1 {
-        return Figure::new(portrait(run, 0, &title)).plot_size(620.0, 460.0);
-    }
-    let panels = (0..shown).map(|i| portrait(run, i, &panel_title(i, run.jumpers())));
-    Figure::grid(2, panels).title(title)
-}
-
-fn portrait(run: &Run, jumper: usize, title: &str) -> Panel {
-    let states = &run.trajectory.history.states;
-    let of = |value: fn(&saltus::model::Observation) -> &Vec<f64>| -> Vec<f64> {
-        states.iter().map(|state| value(state)[jumper]).collect()
-    };
-    let flying: Vec<bool> = of(|s| &s.prf).iter().map(|&force| force == 0.0).collect();
     let section = &run.trajectory.section;
-    let kept = section.get(run.transient()..).unwrap_or_default();
-    let z: Vec<f64> = kept.iter().map(|point| point.z[jumper]).collect();
-    let v: Vec<f64> = kept.iter().map(|point| point.v[jumper]).collect();
-    let seen = format!(
-        "At cos Ωt = 1, periods {} to {}",
-        run.transient() + 1,
-        section.len()
-    );
-    Portrait::new(
-        title,
-        Axis::new("Height z/η (-)"),
-        Axis::new("Velocity ż/(η ω_h) (-)"),
-    )
-    .marked_path(("Contact", "Flight"), of(|s| &s.z), of(|s| &s.v), &flying)
-    .points(seen, z, v)
-    .into()
+    let first = run.transient() + 1;
+    let motion = Motion {
+        title: format!(
+            "Phase portrait: {}, {}",
+            setting(run.study, &run.model),
+            covered(run)
+        ),
+        states: &run.trajectory.history.states,
+        section: section.get(run.transient()..).unwrap_or_default(),
+        seen: format!("At cos Ωt = 1, periods {first} to {}", section.len()),
+    };
+    portrait::portraits(&motion, run.jumpers())
 }
 
 fn histories(run: &Run) -> Figure {

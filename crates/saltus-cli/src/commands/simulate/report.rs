@@ -1,10 +1,10 @@
 //! The JSON document of a run.
 
 use super::Run;
+use crate::commands::motion::{SectionPoint, SwitchPoint};
 use crate::per_jumper::PerJumper;
 use crate::status;
-use saltus::model::{Contact, EnergyBalance, Section};
-use saltus::study::TrajectorySwitch;
+use saltus::model::EnergyBalance;
 use saltus_config::Study;
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -47,21 +47,6 @@ struct Balance {
     residual: f64,
 }
 
-#[derive(Serialize)]
-struct SectionPoint<'a> {
-    z: PerJumper<f64>,
-    v: PerJumper<f64>,
-    w: &'a [f64],
-    phase: PerJumper<&'static str>,
-}
-
-#[derive(Serialize)]
-pub(super) struct SwitchPoint {
-    pub(super) time: f64,
-    pub(super) jumper: usize,
-    pub(super) kind: &'static str,
-}
-
 impl<'a> Report<'a> {
     pub(super) fn new(run: &'a Run) -> Self {
         let (trajectory, scales) = (&run.trajectory, run.model.scales());
@@ -97,14 +82,6 @@ fn peak_force(run: &Run) -> PerJumper<Option<f64>> {
     let states = &run.trajectory.history.states;
     let peak = |i: usize| states.iter().map(|s| s.prf[i]).reduce(f64::max);
     (0..run.jumpers()).map(peak).collect()
-}
-
-/// Word for a contact state.
-pub(super) fn phase(contact: Contact) -> &'static str {
-    match contact {
-        Contact::Stance => "contact",
-        Contact::Flight => "flight",
-    }
 }
 
 impl Energy {
@@ -151,31 +128,6 @@ impl From<&EnergyBalance> for Balance {
             dampers,
             stored,
             residual,
-        }
-    }
-}
-
-impl<'a> From<&'a Section> for SectionPoint<'a> {
-    fn from(section: &'a Section) -> Self {
-        Self {
-            z: section.z.iter().copied().collect(),
-            v: section.v.iter().copied().collect(),
-            w: &section.w,
-            phase: section.phase.iter().copied().map(phase).collect(),
-        }
-    }
-}
-
-impl From<&TrajectorySwitch> for SwitchPoint {
-    fn from(switch: &TrajectorySwitch) -> Self {
-        Self {
-            time: switch.time,
-            jumper: switch.jumper,
-            kind: match switch.into {
-                Some(Contact::Flight) => "take-off",
-                Some(Contact::Stance) => "touch-down",
-                None => "tangency",
-            },
         }
     }
 }

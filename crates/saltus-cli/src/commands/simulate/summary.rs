@@ -1,8 +1,8 @@
 //! What `saltus simulate` says to people.
 
 use super::Run;
-use super::report::{Report, phase};
-use crate::commands::repeats;
+use super::report::Report;
+use crate::commands::{motion::phase, repeats};
 use crate::per_jumper::{PerJumper, column};
 use std::fmt::Write;
 

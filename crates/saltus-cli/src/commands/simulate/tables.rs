@@ -1,7 +1,8 @@
 //! The tables of a run.
 
 use super::Run;
-use super::report::{Report, phase};
+use super::report::Report;
+use crate::commands::motion;
 use crate::exit::Failure;
 use crate::folder::Folder;
 use crate::per_jumper::column;
@@ -19,17 +20,15 @@ pub(super) fn write(folder: &mut Folder, run: &Run, report: &Report) -> Result<(
         settings.extend(more);
         settings
     };
-    section(folder, run, &note(&BODY))?;
-    history(folder, run, &note(&BODY))?;
-    switches(folder, report, &note(&[]))?;
+    section(folder, run, &note(&motion::COLUMNS))?;
+    history(folder, run, &note(&HISTORY))?;
+    motion::write_switches(folder, &report.switches, &note(&[]))?;
     energy(folder, run, &note(&ENERGY))
 }
 
-const BODY: [(&str, &str); 6] = [
-    ("z", "height over eta = g/omega_h^2 (-)"),
-    ("v", "velocity over eta omega_h (-)"),
-    ("phase", "contact or flight"),
-    ("w_m_n", "plate amplitude over thickness h, term (m, n) (-)"),
+const HISTORY: [(&str, &str); 4] = [
+    motion::COLUMNS[0],
+    motion::COLUMNS[1],
     ("prf", "plate reaction force over body weight (-)"),
     ("floor", "height of the plate under the feet (m)"),
 ];
@@ -44,26 +43,12 @@ fn section(
     run: &Run,
     settings: &[(&'static str, &str)],
 ) -> Result<(), Failure> {
-    let jumpers = run.jumpers();
     let mut header = vec!["period".to_owned(), "time_s".to_owned()];
-    for i in 0..jumpers {
-        header.extend(["z", "v", "phase"].map(|name| column(name, i, jumpers)));
-    }
-    let plate = &run.model.setup().plate;
-    header.extend(plate.modes.w.iter().map(|w| format!("w_{}_{}", w.m, w.n)));
+    header.extend(motion::header(&run.model));
     let row = |(index, point): (usize, &saltus::model::Section)| {
-        let mut row: Vec<Value> = vec![
-            Value::Integer(index as i64 + 1),
-            run.section_time(index).into(),
-        ];
-        for i in 0..jumpers {
-            row.extend([
-                point.z[i].into(),
-                point.v[i].into(),
-                phase(point.phase[i]).into(),
-            ]);
-        }
-        row.extend(point.w.iter().copied().map(Value::from));
+        let period = Value::Integer(index as i64 + 1);
+        let mut row = vec![period, run.section_time(index).into()];
+        row.extend(motion::cells(point));
         row
     };
     let rows = run.trajectory.section.iter().enumerate().map(row);
@@ -93,22 +78,6 @@ fn history(
             row
         });
     folder.table("history.csv", settings, &header, rows)
-}
-
-fn switches(
-    folder: &mut Folder,
-    report: &Report,
-    settings: &[(&'static str, &str)],
-) -> Result<(), Failure> {
-    let header = ["time_s", "jumper", "kind"].map(str::to_owned);
-    let rows = report.switches.iter().map(|switch| {
-        vec![
-            switch.time.into(),
-            Value::Integer(switch.jumper as i64),
-            switch.kind.into(),
-        ]
-    });
-    folder.table("switches.csv", settings, &header, rows)
 }
 
 fn energy(

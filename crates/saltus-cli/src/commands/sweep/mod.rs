@@ -40,8 +40,8 @@ pub(super) fn run(args: &WorkArgs) -> Result<(), Failure> {
     let sweep = plan(&study, table);
     let control = super::control(&study, &args.threads);
     let folder = super::folder(&args.output, &study)?;
-    let models = Models::new(&study, &parameter, control.options);
-    let work = || saltus::study::sweep(&sweep, |value| models.at(value), &control);
+    let models = Models::new(&study, &[&parameter], control.options);
+    let work = || saltus::study::sweep(&sweep, |value| models.at(&[value]), &control);
     let (total, quiet) = (sweep.periods(), args.output.quiet);
     let rows = progress::follow(total, "periods", quiet, &control.done, work)?;
     interrupt::check()?;
