@@ -7,8 +7,8 @@
 //! the number of switches changes, by bisection.
 
 use saltus_orbits::{
-    Crossing, Differences, Family, Multiplier, NewtonOptions, Orbit, Place, Special, SpecialKind,
-    find_orbit,
+    Branch, Crossing, Differences, Family, Multiplier, NewtonOptions, Orbit, Place, Special,
+    SpecialKind, find_orbit,
 };
 
 /// Step of the differences: 1e-12 of curvature, and 1e-14 of noise over 1e-5.
@@ -17,8 +17,10 @@ const STEP: f64 = 1e-5;
 /// How far aside the secant method begins, as a part of the range.
 const ASIDE: f64 = 1e-5;
 
-/// Distances from a fold at which orbits are taken, as parts of the range.
+/// Distances from a fold at which orbits are taken, as parts of the range; a hundredth of them where the
+/// multiplier is far from 1 there.
 const NEAR_FOLD: [f64; 3] = [1e-6, 4e-6, 9e-6];
+const NEARER: [f64; 3] = [1.0, 1e-2, 1e-4];
 
 /// Half the first bracket around a grazing, as a part of the range, and when it is narrow enough.
 const BRACKET: f64 = 1e-5;
@@ -26,16 +28,18 @@ const NARROW: f64 = 1e-11;
 
 const ROUNDS: usize = 40;
 
-/// The parameter `index` at which what `special` says happens, as the second method finds it near that point;
+/// The parameter `index` at which what `special` of `branch` says happens, as the second method finds it near that point;
 /// `range` is the length of the range. `None` where it finds nothing near, and for switches that change order.
 pub fn second_opinion<F: Family>(
     family: &F,
+    branch: &Branch,
     special: &Special,
     index: usize,
     range: f64,
 ) -> Option<f64> {
     let scene = Scene {
         family,
+        branch,
         special,
         index,
         range,
@@ -56,6 +60,7 @@ pub fn second_opinion<F: Family>(
 
 struct Scene<'a, F> {
     family: &'a F,
+    branch: &'a Branch,
     special: &'a Special,
     index: usize,
     range: f64,
@@ -95,14 +100,21 @@ impl<F: Family> Scene<'_, F> {
         None
     }
 
-    /// By the parabola through (multiplier - 1)^2 at three values on the side where there are orbits.
+    /// By the parabola through (multiplier - 1)^2 at three values on the side where there are orbits. They are sought
+    /// on the way to the neighbouring points of the branch, which goes as the root of the distance.
     fn fold(&self) -> Option<f64> {
         let differences = Differences::new(self.family, STEP);
-        let places = &self.special.orbit.places;
-        [1.0, -1.0].into_iter().find_map(|side| {
-            let at = NEAR_FOLD.map(|part| self.special.parameter + side * part * self.range);
+        let special = self.special;
+        let neighbours = self.branch.points[special.near..].iter().take(2);
+        let mut tries = neighbours.flat_map(|point| NEARER.map(|scale| (point, scale)));
+        tries.find_map(|(point, scale)| {
+            let away = point.parameter - special.parameter;
+            let at =
+                NEAR_FOLD.map(|part| special.parameter + away.signum() * scale * part * self.range);
             let square = |at: f64| {
-                let orbit = self.solve(&differences, at, places)?;
+                let part = ((at - special.parameter) / away).sqrt();
+                let guess = mixed(&special.orbit.places, &point.orbit.places, part);
+                let orbit = self.solve(&differences, at, &guess)?;
                 // one that Newton's method found elsewhere
                 let near = nearest(&orbit.multipliers, 1.0).filter(|m| (m - 1.0).abs() < 0.1)?;
                 Some((near - 1.0).powi(2))
@@ -143,6 +155,19 @@ impl<F: Family> Scene<'_, F> {
         }
         Some(f64::midpoint(low, high))
     }
+}
+
+/// Places a part of the way from some to others.
+fn mixed(from: &[Place], to: &[Place], part: f64) -> Vec<Place> {
+    let between = |(a, b): (&Place, &Place)| Place {
+        modes: a.modes.clone(),
+        x: a.x
+            .iter()
+            .zip(&b.x)
+            .map(|(a, b)| a + part * (b - a))
+            .collect(),
+    };
+    from.iter().zip(to).map(between).collect()
 }
 
 /// The real multiplier nearest to a number.

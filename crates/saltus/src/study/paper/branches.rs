@@ -339,9 +339,15 @@ impl<'a> Panel<'a> {
             &seed.places,
             &NewtonOptions::default(),
         );
-        let limbs = branches(family, &start.ok()?, &along, &options, &mut |_| {
-            self.stopped().is_ok()
-        });
+        // No further than past the doubling of the doubled branch.
+        let (mut settled, mut past) = (false, false);
+        let mut go_on = |point: &Point| {
+            let doubled = point.orbit.period() == 2 * period;
+            past |= doubled && settled && !point.stable;
+            settled |= doubled && point.stable;
+            !past && self.stopped().is_ok()
+        };
+        let limbs = branches(family, &start.ok()?, &along, &options, &mut go_on);
         let limbs = limbs.ok()?;
         let found = limbs.iter().flat_map(|limb| limb.branch.specials.iter());
         let mut next: Vec<f64> = found
@@ -376,14 +382,17 @@ impl<'a> Panel<'a> {
         limbs: &[Limb],
     ) -> Result<Vec<Transition>, StudyError> {
         let mut out = Vec::new();
-        for special in limbs.iter().flat_map(|limb| &limb.branch.specials) {
+        let all = limbs.iter().map(|limb| &limb.branch);
+        let all =
+            all.flat_map(|branch| branch.specials.iter().map(move |special| (branch, special)));
+        for (branch, special) in all {
             self.stopped()?;
             let model = self.model_at(special.parameter)?;
             out.push(Transition {
                 label: special.label.clone(),
                 kind: special.kind.clone(),
                 damping_ratio: special.parameter,
-                second: second_opinion(family, special, 0, ALONG.to - ALONG.from),
+                second: second_opinion(family, branch, special, 0, ALONG.to - ALONG.from),
                 period: special.orbit.period(),
                 seen: special.outside.contains(&0),
                 sequence: sequence(&model, &special.orbit),
