@@ -7,7 +7,8 @@ use saltus::orbits::Nature;
 use saltus::physics::FrequencyReference::{Free, Occupied};
 use saltus::study::Control;
 use saltus::study::paper::{
-    Effort, Verdict, compare_inertia, diagrams, facts, misprints, regimes, run_cases,
+    Effort, Verdict, compare_inertia, diagrams, facts, misprints, panel_branches, regimes,
+    run_cases,
 };
 
 /// A tenth of the resolution of `saltus reproduce`: seconds.
@@ -21,6 +22,11 @@ fn effort() -> Effort {
         full_values: 3,
         full_periods: (120, 20),
         exponent_periods: 1500,
+        panel_exponent_periods: 60,
+        census_values: 17,
+        census_starts: 8,
+        doublings: 1,
+        cascade_period: 4,
     }
 }
 
@@ -30,7 +36,8 @@ fn every_statement_has_its_verdict() {
     let diagrams = diagrams(&effort, &control).unwrap();
     let occupied = run_cases(Occupied, &effort, &control).unwrap();
     let free = run_cases(Free, &effort, &control).unwrap();
-    let facts = facts(&diagrams, &occupied, &free, &control).unwrap();
+    let branches = panel_branches(&effort, &control).unwrap();
+    let facts = facts(&diagrams, &occupied, &free, &branches, &control).unwrap();
     let verdicts: Vec<(&str, Verdict)> = facts.iter().map(|f| (f.id, f.verdict)).collect();
     use Verdict::{Departure, Reproduced};
     // F6: at zeta_h = 0.32 the paper sees a torus where the exponent is positive (narrow chaotic

@@ -6,6 +6,7 @@ mod check;
 mod continuation;
 mod frequencies;
 mod init;
+mod kinds;
 mod lyapunov;
 mod map;
 mod models;

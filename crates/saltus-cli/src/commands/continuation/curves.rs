@@ -1,7 +1,7 @@
 //! Curves of special points over two parameters.
 
-use super::kinds;
 use super::question::Question;
+use crate::commands::kinds;
 use saltus::orbits::{Curve, Family, Limb, Special, follow_curve};
 
 /// What became of a curve that was asked for.

@@ -1,7 +1,8 @@
 //! Branches over their parameter, and curves of special points over two.
 
+use super::Run;
 use super::diagram::track;
-use super::{Run, kinds};
+use crate::commands::kinds;
 use crate::commands::{base_in_title, capitalized};
 use crate::exit::Failure;
 use crate::folder::Folder;

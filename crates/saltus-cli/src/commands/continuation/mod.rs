@@ -3,7 +3,6 @@
 mod curves;
 mod diagram;
 mod figures;
-mod kinds;
 mod origin;
 mod question;
 mod report;

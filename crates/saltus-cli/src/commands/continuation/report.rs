@@ -1,7 +1,8 @@
 //! The JSON document of branches.
 
+use super::Run;
 use super::view::Seen;
-use super::{Run, kinds};
+use crate::commands::kinds;
 use crate::commands::motion::SectionPoint;
 use saltus::orbits::{Orbit, Special};
 use saltus_config::{Parameter, Study};

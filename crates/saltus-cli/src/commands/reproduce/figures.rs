@@ -7,8 +7,8 @@ use saltus_results::{Axis, Cloud, Figure, History, Panel, Portrait};
 
 use super::Results;
 
-const DAMPING: &str = "Damping ratio ζ_h (-)";
-const HEIGHT: &str = "Height z/η (-)";
+pub(super) const DAMPING: &str = "Damping ratio ζ_h (-)";
+pub(super) const HEIGHT: &str = "Height z/η (-)";
 const SPEED: &str = "Velocity ż/(η ω_h) (-)";
 
 /// Fig. 2 under one reading of omega_h: all passes of the paper's law.
@@ -26,7 +26,7 @@ pub(super) fn fig2(results: &Results, reference: FrequencyReference) -> Figure {
         .plot_size(900.0, 300.0)
 }
 
-fn find(
+pub(super) fn find(
     results: &Results,
     law: ContactLaw,
     reference: FrequencyReference,
@@ -63,7 +63,7 @@ fn pass_name(pass: &Pass) -> String {
 }
 
 /// All samples of one pass.
-fn points(diagram: &Diagram, pass: usize) -> (Vec<f64>, Vec<f64>) {
+pub(super) fn points(diagram: &Diagram, pass: usize) -> (Vec<f64>, Vec<f64>) {
     let rows = diagram.pass(pass);
     let samples = rows.flat_map(|row| {
         let z = row.z.first().map_or(&[][..], Vec::as_slice);

@@ -1,5 +1,6 @@
 //! `saltus reproduce`: the paper, figure by figure, with our numbers beside its words.
 
+mod branches;
 mod figures;
 mod page;
 mod report;
@@ -9,7 +10,9 @@ use std::time::Instant;
 
 use saltus::hybrid::Method;
 use saltus::physics::FrequencyReference::{Free, Occupied};
-use saltus::study::paper::{self, CaseResult, Diagram, Effort, InertiaComparison, Misprint};
+use saltus::study::paper::{
+    self, CaseResult, Diagram, Effort, InertiaComparison, Misprint, PanelBranches, PanelExponents,
+};
 use saltus::study::{Control, StudyError};
 use saltus_config::Study;
 
@@ -23,6 +26,8 @@ use report::Report;
 struct Results {
     effort: Effort,
     diagrams: Vec<Diagram>,
+    branches: Vec<PanelBranches>,
+    exponents: Vec<PanelExponents>,
     cases: Vec<CaseResult>,
     facts: Vec<paper::Fact>,
     misprints: Vec<Misprint>,
@@ -87,7 +92,13 @@ fn compute(args: &ReproduceArgs) -> Result<Results, Failure> {
     let free = step.run("Fig. 3, free", case_periods, || {
         paper::run_cases(Free, &effort, &control)
     })?;
-    let facts = step.run("Facts", 0, || paper::facts(&diagrams, &cases, &free, &fast))?;
+    let exponents = step.run("Exponents", effort.panel_periods(), || {
+        paper::panel_exponents(&diagrams, &effort, &fast)
+    })?;
+    let branches = step.run("Branches", 0, || paper::panel_branches(&effort, &control))?;
+    let facts = step.run("Facts", 0, || {
+        paper::facts(&diagrams, &cases, &free, &branches, &fast)
+    })?;
     let misprints = step.run("Misprints", 0, || paper::misprints(&control))?;
     let inertia = step.run("Full model", effort.inertia_periods(), || {
         paper::compare_inertia(&effort, &control)
@@ -95,6 +106,8 @@ fn compute(args: &ReproduceArgs) -> Result<Results, Failure> {
     Ok(Results {
         effort,
         diagrams,
+        branches,
+        exponents,
         cases,
         facts,
         misprints,

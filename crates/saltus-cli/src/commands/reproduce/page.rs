@@ -5,7 +5,7 @@ use saltus::study::paper::Verdict;
 use saltus_results::{Fact, Figure, FigureBlock, Image, Page, Verdict as Badge};
 
 use super::report::{RegimeRow, Report};
-use super::{Results, figures, tables};
+use super::{Results, branches, figures, tables};
 use crate::exit::Failure;
 use crate::folder::Folder;
 use crate::interrupt;
@@ -30,6 +30,7 @@ pub(super) fn write(
     ]);
     statements(&mut album, results, report);
     fig2(&mut album, results)?;
+    branches::write(&mut album, results)?;
     fig3(&mut album, results)?;
     ambiguities(&mut album, results, report)?;
     beyond(&mut album, results, report)?;
@@ -39,29 +40,29 @@ pub(super) fn write(
 }
 
 /// A page that is being filled together with its folder.
-struct Album<'a> {
-    folder: &'a mut Folder,
+pub(super) struct Album<'a> {
+    pub(super) folder: &'a mut Folder,
     page: Page,
 }
 
 impl Album<'_> {
-    fn with(&mut self, change: impl FnOnce(Page) -> Page) {
+    pub(super) fn with(&mut self, change: impl FnOnce(Page) -> Page) {
         let page = std::mem::replace(&mut self.page, Page::new(""));
         self.page = change(page);
     }
 
-    fn section(&mut self, title: &str) {
+    pub(super) fn section(&mut self, title: &str) {
         self.with(|page| page.section(title));
     }
 
-    fn say(&mut self, paragraphs: &[&str]) {
+    pub(super) fn say(&mut self, paragraphs: &[&str]) {
         for text in paragraphs {
             self.with(|page| page.paragraph(text));
         }
     }
 
     /// Puts a figure into the folder (SVG, PNG) and onto the page.
-    fn show(
+    pub(super) fn show(
         &mut self,
         name: &str,
         figure: &Figure,
@@ -273,7 +274,7 @@ fn method(album: &mut Album<'_>, results: &Results) {
                   allow 1e-7 of the plate thickness per step, the named motions 1e-10. Figures 2 and 3 use the \
                   condensed model.";
     let exponents = format!(
-        "Exponents: two trajectories 1e-7 apart over {} periods, standard error from twenty batches.",
+        "Exponents: the tangent flow over {} periods, standard errors from batches long enough to be independent.",
         effort.exponent_periods
     );
     let version = format!("saltus {}", env!("CARGO_PKG_VERSION"));

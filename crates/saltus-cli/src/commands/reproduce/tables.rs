@@ -9,7 +9,7 @@ use super::report::Report;
 use crate::exit::Failure;
 use crate::folder::Folder;
 
-fn header(names: &[&str]) -> Vec<String> {
+pub(super) fn header(names: &[&str]) -> Vec<String> {
     names.iter().map(|&name| name.to_owned()).collect()
 }
 

@@ -28,6 +28,9 @@ const START: f64 = 0.45;
 /// Longest period of another attractor whose branch is followed.
 const LONGEST: u32 = 8;
 
+/// A largest multiplier nearer to 1 than this is on the unit circle.
+const EDGE: f64 = 1e-6;
+
 /// Two orbits are one if their places differ by less.
 const SAME: f64 = 1e-6;
 
@@ -55,7 +58,7 @@ pub struct Drawn {
     pub origin: Option<String>,
     /// zeta_h, point by point.
     pub damping_ratio: Vec<f64>,
-    /// Whether each point is stable.
+    /// Whether each point is stable; special points count as such, so that they end the stable part.
     pub stable: Vec<bool>,
     /// z/eta of the body: `heights[place][point]`.
     pub heights: Vec<Vec<f64>>,
@@ -97,6 +100,16 @@ pub fn panel_branches(
         .iter()
         .map(|&ratio| Panel::new(&plate, ratio, effort, control).branches())
         .collect()
+}
+
+impl PanelBranches {
+    /// By how much the distances of successive doublings fall: Feigenbaum's number in the limit.
+    pub fn cascade_ratios(&self) -> Vec<f64> {
+        let triples = self.cascade.windows(3);
+        triples
+            .map(|w| (w[0].1 - w[1].1) / (w[1].1 - w[2].1))
+            .collect()
+    }
 }
 
 /// One panel under way.
@@ -142,7 +155,8 @@ impl<'a> Panel<'a> {
         let main = self.or_stop(found)?;
         for orbit in main.into_iter().chain(self.others(&family, &attractors)?) {
             if !self.is_known(&family, &limbs, &orbit) {
-                limbs.extend(self.follow(&family, &orbit)?);
+                let more = self.follow(&family, &orbit)?;
+                limbs.extend(renumbered(more, &limbs));
             }
         }
         let cascade = self.cascade(&family, &limbs)?;
@@ -406,21 +420,57 @@ impl<'a> Panel<'a> {
     fn drawn(&self, limb: &Limb) -> Result<Drawn, StudyError> {
         let points = &limb.branch.points;
         let period = points.first().map_or(0, |point| point.orbit.period());
-        let mut all = vec![Vec::with_capacity(points.len()); period];
-        for point in points {
-            let model = self.model_at(point.parameter)?;
-            let here = heights(&model, &point.orbit);
-            all.iter_mut().zip(here).for_each(|(line, z)| line.push(z));
-        }
-        Ok(Drawn {
+        let mut out = Drawn {
             period,
             origin: limb.origin.clone(),
-            damping_ratio: points.iter().map(|point| point.parameter).collect(),
-            stable: points.iter().map(|point| point.stable).collect(),
-            heights: all,
+            damping_ratio: Vec::new(),
+            stable: Vec::new(),
+            heights: vec![Vec::new(); period],
             ends: limb.branch.ends.clone().map(|end| end.to_string()),
-        })
+        };
+        let mut put = |zeta: f64, stable: bool, orbit: &Orbit| {
+            let model = self.model_at(zeta)?;
+            out.damping_ratio.push(zeta);
+            out.stable.push(stable);
+            let here = heights(&model, orbit);
+            out.heights
+                .iter_mut()
+                .zip(here)
+                .for_each(|(line, z)| line.push(z));
+            Ok::<(), StudyError>(())
+        };
+        let mut specials = limb.branch.specials.iter().peekable();
+        for (index, point) in points.iter().enumerate() {
+            // At the birth of a branch a multiplier is 1, and which side of the circle it is on is chance.
+            let largest = point.orbit.multipliers.first().map_or(0.0, |m| m.modulus());
+            put(point.parameter, largest < 1.0 + EDGE, &point.orbit)?;
+            while let Some(special) = specials.next_if(|special| special.near == index) {
+                put(special.parameter, true, &special.orbit)?;
+            }
+        }
+        Ok(out)
     }
+}
+
+/// New branches with labels that go on from those of the known ones.
+fn renumbered(mut limbs: Vec<Limb>, known: &[Limb]) -> Vec<Limb> {
+    let specials = |limbs: &[Limb], short: &str| {
+        let all = limbs.iter().flat_map(|limb| &limb.branch.specials);
+        all.filter(|special| special.kind.short() == short).count()
+    };
+    let later = |label: &str| {
+        let digits = label.trim_start_matches(char::is_alphabetic);
+        let short = &label[..label.len() - digits.len()];
+        let number: usize = digits.parse().unwrap_or(0);
+        format!("{short}{}", number + specials(known, short))
+    };
+    for limb in &mut limbs {
+        limb.origin = limb.origin.as_deref().map(later);
+        for special in &mut limb.branch.specials {
+            special.label = later(&special.label);
+        }
+    }
+    limbs
 }
 
 /// z/eta of the body at each place.

@@ -90,13 +90,36 @@ impl CaseResult {
         out
     }
 
+    /// Into how many bands, visited in turn, the heights of the section fall: 16 at most, a power of two.
+    pub fn bands(&self) -> usize {
+        let z: Vec<f64> = self.trajectory.section.iter().map(|s| s.z[0]).collect();
+        let apart = |n: usize| {
+            let range = |i: usize| {
+                let visits = z.iter().skip(i).step_by(n);
+                visits.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &z| {
+                    [low.min(z), high.max(z)]
+                })
+            };
+            let mut ranges: Vec<[f64; 2]> = (0..n).map(range).collect();
+            ranges.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            ranges.windows(2).all(|pair| pair[0][1] < pair[1][0])
+        };
+        [16, 8, 4, 2].into_iter().find(|&n| apart(n)).unwrap_or(1)
+    }
+
     /// In a word or two: what the numbers say.
     pub fn words(&self) -> String {
         let exponent = self.verdict.exponent;
         let (mean, error) = (exponent.per_iterate, exponent.standard_error);
         match (self.verdict.nature, self.recurrence) {
             (Nature::Periodic(n), _) | (_, Some(n)) => format!("{n}T"),
-            (Nature::Chaotic, _) => format!("chaotic (exponent {mean:.4} ± {error:.4} per period)"),
+            (Nature::Chaotic, _) => {
+                let bands = match self.bands() {
+                    1 => String::new(),
+                    n => format!(" in {n} bands"),
+                };
+                format!("chaotic{bands} (exponent {mean:.4} ± {error:.4} per period)")
+            }
             (Nature::QuasiPeriodic, _) => {
                 format!("quasi-periodic (exponent {mean:.1e} ± {error:.0e} per period)")
             }

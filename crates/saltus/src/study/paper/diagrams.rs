@@ -114,6 +114,15 @@ pub struct Regime {
 }
 
 impl Diagram {
+    /// The model at a damping ratio.
+    ///
+    /// # Errors
+    /// [`ModelError`] for one that makes no sense.
+    pub fn model(&self, damping_ratio: f64) -> Result<Model, ModelError> {
+        let inertia = Inertia::Condensed;
+        setup(damping_ratio, self.ratio, self.reference, self.law, inertia).model()
+    }
+
     /// The rows of one pass, damping ratio ascending.
     pub fn pass(&self, pass: usize) -> impl Iterator<Item = &SweepRow> {
         self.rows.iter().filter(move |row| row.pass == pass)

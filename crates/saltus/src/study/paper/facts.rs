@@ -2,9 +2,11 @@
 
 use std::fmt::Write as _;
 
-use saltus_orbits::Nature;
+use saltus_orbits::{Nature, SpecialKind};
 
-use super::{CaseResult, Coexistence, Diagram, RATIOS, Regime, coexistence, regimes};
+use super::{
+    CaseResult, Coexistence, Diagram, PanelBranches, RATIOS, Regime, coexistence, regimes,
+};
 use crate::physics::{ContactLaw, FrequencyReference, Jumper, Plate};
 use crate::study::{Control, StudyError};
 
@@ -57,7 +59,8 @@ pub struct Fact {
 type Finding = (String, Verdict);
 type Find = fn(&Evidence<'_>) -> Finding;
 
-/// All facts. `occupied` and `free` are the results of [`super::run_cases`] under both readings.
+/// All facts. `occupied` and `free` are the results of [`super::run_cases`] under both readings, `branches` those of
+/// [`super::panel_branches`], under the first.
 ///
 /// # Errors
 /// [`StudyError`] if there is no model of the paper's plate, or when stopped.
@@ -65,6 +68,7 @@ pub fn facts(
     diagrams: &[Diagram],
     occupied: &[CaseResult],
     free: &[CaseResult],
+    branches: &[PanelBranches],
     control: &Control,
 ) -> Result<Vec<Fact>, StudyError> {
     let mut out = frequencies()?;
@@ -104,14 +108,15 @@ pub fn facts(
         ),
     ];
     for (id, claim, find) in claims {
-        let evidence = |reference, cases| Evidence {
+        let evidence = |reference, cases, branches| Evidence {
             diagrams,
             coexistence: &stretches,
             reference,
             cases,
+            branches,
         };
-        let (value, verdict) = find(&evidence(FrequencyReference::Occupied, occupied));
-        let (other, its_verdict) = find(&evidence(FrequencyReference::Free, free));
+        let (value, verdict) = find(&evidence(FrequencyReference::Occupied, occupied, branches));
+        let (other, its_verdict) = find(&evidence(FrequencyReference::Free, free, &[]));
         let reading = format!(
             "omega_h is the occupied body frequency. With the free one ({}): {other}",
             its_verdict.words()
@@ -179,6 +184,8 @@ struct Evidence<'a> {
     coexistence: &'a [(&'a Diagram, Vec<Coexistence>)],
     reference: FrequencyReference,
     cases: &'a [CaseResult],
+    /// Empty where none were followed.
+    branches: &'a [PanelBranches],
 }
 
 impl Evidence<'_> {
@@ -190,6 +197,10 @@ impl Evidence<'_> {
 
     fn case(&self, tag: char) -> Option<&CaseResult> {
         self.cases.iter().find(|result| result.case.tag == tag)
+    }
+
+    fn panel(&self, ratio: f64) -> Option<&PanelBranches> {
+        self.branches.iter().find(|panel| panel.ratio == ratio)
     }
 
     fn words(&self, tag: char) -> String {
@@ -300,6 +311,17 @@ fn f6(evidence: &Evidence<'_>) -> Finding {
         evidence.words('f'),
         evidence.case('g').map_or_else(String::new, in_pairs)
     );
+    let mut value = value;
+    if let Some(panel) = evidence.panel(RATIOS[2]) {
+        let tori = panel
+            .transitions
+            .iter()
+            .filter(|t| matches!(t.kind, SpecialKind::NeimarkSacker { .. }));
+        value += match tori.count() {
+            0 => "; no branch has a Neimark-Sacker point, where a torus would begin",
+            _ => "; there are Neimark-Sacker points, where tori begin",
+        };
+    }
     let torus = evidence
         .case('f')
         .is_some_and(|result| result.verdict.nature == Nature::QuasiPeriodic);
@@ -350,7 +372,25 @@ fn f7(evidence: &Evidence<'_>) -> Finding {
         evidence.words('g'),
         evidence.words('f')
     );
-    let doubling = lowest.len() >= 3 && lowest.windows(2).all(|w| w[1] < w[0]);
+    let mut doubling = lowest.len() >= 3 && lowest.windows(2).all(|w| w[1] < w[0]);
+    if let Some(panel) = evidence.panel(RATIOS[2]) {
+        let at: Vec<String> = panel
+            .cascade
+            .iter()
+            .map(|(_, zeta)| format!("{zeta:.8}"))
+            .collect();
+        let _ = write!(value, "; the period doubles at {}", at.join(", "));
+        let ratios = panel.cascade_ratios();
+        if !ratios.is_empty() {
+            let ratios: Vec<String> = ratios.iter().map(|ratio| format!("{ratio:.3}")).collect();
+            let _ = write!(
+                value,
+                " (successive distances fall by {}; Feigenbaum's number is 4.669)",
+                ratios.join(", ")
+            );
+        }
+        doubling &= panel.cascade.len() >= 2;
+    }
     let irregular = evidence
         .case('f')
         .is_some_and(|result| result.recurrence.is_none());
@@ -388,6 +428,23 @@ fn f8(evidence: &Evidence<'_>) -> Finding {
     let mut value = format!("two attractors at {}", longest.join("; "));
     if found.len() > LONGEST {
         let _ = write!(value, "; and {} shorter stretches", found.len() - LONGEST);
+    }
+    for panel in evidence.branches {
+        for found in &panel.attractors.loops {
+            let end = |jump: Option<[f64; 2]>| {
+                jump.map_or_else(
+                    || "not at all".into(),
+                    |[low, high]| format!("between {low:.3} and {high:.3}"),
+                )
+            };
+            let _ = write!(
+                value,
+                "; hysteresis at Omega = {:.1}: rising, the motion jumps {}, falling {}",
+                panel.ratio,
+                end(found.jump_up),
+                end(found.jump_down)
+            );
+        }
     }
     (value, Verdict::Reproduced)
 }

@@ -4,6 +4,7 @@
 mod branches;
 mod cases;
 mod diagrams;
+mod exponents;
 mod facts;
 mod inertia;
 mod misprints;
@@ -11,6 +12,7 @@ mod misprints;
 pub use branches::{Drawn, PanelBranches, Transition, panel_branches};
 pub use cases::{Case, CaseResult, cases, run_cases};
 pub use diagrams::{Coexistence, Diagram, Regime, coexistence, diagrams, regimes};
+pub use exponents::{PanelExponents, panel_exponents};
 pub use facts::{Fact, Verdict, facts};
 pub use inertia::{InertiaComparison, InertiaRow, compare_inertia};
 pub use misprints::{Misprint, misprints};
@@ -40,7 +42,9 @@ pub struct Effort {
     pub full_periods: (u64, u64),
     /// Periods an exponent is averaged over.
     pub exponent_periods: u64,
-    /// Damping ratios and starts of the census of attractors.
+    /// Periods the exponents along a panel are averaged over.
+    pub panel_exponent_periods: u64,
+    /// Damping ratios at which attractors are counted.
     pub census_values: usize,
     /// Starts at each.
     pub census_starts: usize,
@@ -62,10 +66,11 @@ impl Effort {
             full_values: 17,
             full_periods: (150, 50),
             exponent_periods: 5000,
-            census_values: 81,
+            panel_exponent_periods: 300,
+            census_values: 41,
             census_starts: 32,
-            doublings: 3,
-            cascade_period: 64,
+            doublings: 2,
+            cascade_period: 32,
         }
     }
 
@@ -80,6 +85,7 @@ impl Effort {
             full_values: 5,
             full_periods: (40, 20),
             exponent_periods: 500,
+            panel_exponent_periods: 60,
             census_values: 17,
             census_starts: 8,
             doublings: 1,
@@ -98,7 +104,7 @@ impl Effort {
 
     /// Periods of the cases of Fig. 3 under one reading.
     pub fn case_periods(&self) -> u64 {
-        8 * (cases::TRANSIENT + cases::KEPT + 2 * self.exponent_periods)
+        8 * (cases::TRANSIENT + cases::KEPT + self.exponent_periods + 100)
     }
 
     /// Periods of the comparison of full and condensed.

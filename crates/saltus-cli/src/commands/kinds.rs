@@ -4,7 +4,7 @@ use saltus::orbits::SpecialKind;
 use saltus_results::Bifurcation;
 
 /// The name in a sentence.
-pub(super) fn name(kind: &SpecialKind) -> &'static str {
+pub(crate) fn name(kind: &SpecialKind) -> &'static str {
     match kind {
         SpecialKind::Fold => "fold",
         SpecialKind::BranchPoint => "branch point",
@@ -17,7 +17,7 @@ pub(super) fn name(kind: &SpecialKind) -> &'static str {
 }
 
 /// The symbol in figures; a halving is a doubling seen from the other branch.
-pub(super) fn symbol(kind: &SpecialKind) -> Bifurcation {
+pub(crate) fn symbol(kind: &SpecialKind) -> Bifurcation {
     match kind {
         SpecialKind::Fold => Bifurcation::Fold,
         SpecialKind::BranchPoint => Bifurcation::BranchPoint,
@@ -29,12 +29,12 @@ pub(super) fn symbol(kind: &SpecialKind) -> Bifurcation {
 }
 
 /// Whether a curve over two parameters goes through such a point.
-pub(super) fn has_curve(kind: &SpecialKind) -> bool {
+pub(crate) fn has_curve(kind: &SpecialKind) -> bool {
     matches!(kind.short(), "LP" | "PD" | "NS" | "GR")
 }
 
 /// Angle of the multiplier on the unit circle (rad), where one turns round it.
-pub(super) fn angle(kind: &SpecialKind) -> Option<f64> {
+pub(crate) fn angle(kind: &SpecialKind) -> Option<f64> {
     match kind {
         SpecialKind::NeimarkSacker { angle } => Some(*angle),
         _ => None,
@@ -42,7 +42,7 @@ pub(super) fn angle(kind: &SpecialKind) -> Option<f64> {
 }
 
 /// Whether a word of `continue.second.curves` means a point: its label, or its kind.
-pub(super) fn means(word: &str, label: &str, kind: &SpecialKind) -> bool {
+pub(crate) fn means(word: &str, label: &str, kind: &SpecialKind) -> bool {
     let same = |other: &str| word.eq_ignore_ascii_case(other);
     same(label) || same(kind.short()) || same(name(kind))
 }
