@@ -62,7 +62,7 @@ impl Colour {
     pub const MISSING: Self = Self(225, 225, 225);
 
     /// Order for curves: the first colours are the darkest on white.
-    pub(crate) const CURVES: [Self; 7] = [
+    pub const CURVES: [Self; 7] = [
         Self::BLUE,
         Self::VERMILLION,
         Self::GREEN,
