@@ -15,6 +15,7 @@ mod orbits;
 pub mod paper;
 mod peaks;
 mod recurrence;
+mod rows;
 mod settle;
 mod starts;
 mod sweep;
@@ -35,6 +36,7 @@ pub use orbits::{
     sequence, stroboscopic,
 };
 pub use recurrence::recurrence;
+pub use rows::{Label, exponents, labels};
 pub use saltus_orbits::MAX_PERIOD;
 pub use settle::{Settled, settle};
 pub use starts::Starts;
