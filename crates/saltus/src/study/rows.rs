@@ -1,8 +1,8 @@
 //! What the motion at the end of each row of a sweep is: its label, and its largest exponents.
 //!
-//! Both go on from the very state with which the row ended, so they are of the motion that the row shows, also
-//! where others coexist. A chaotic transient that ends after the row is an exception: the label is then of
-//! what follows it.
+//! The label goes on from the very state with which the row ended, and the exponents from where the label was
+//! found: all are of the motion that the row shows, also where others coexist. A chaotic transient that ends after
+//! the row is an exception: label and exponents are then of what follows it.
 
 use saltus_hybrid::{Point, Status};
 use saltus_orbits::Exponent;
@@ -12,7 +12,7 @@ use super::{Control, StudyError, SweepRow, growth};
 use crate::model::{Model, ModelError};
 
 /// What the motion of a row is in the long run.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Label {
     /// What it is; [`Kind::Undecided`] also if going on from the row ended early.
     pub kind: Kind,
@@ -21,6 +21,8 @@ pub struct Label {
     /// As in [`Attractor`](super::Attractor): of the test behind the name; `None` for a cycle known by its
     /// returns.
     pub confidence: Option<f64>,
+    /// Last state, to go on from; `None` if going on from the row ended early.
+    pub end: Option<Point>,
 }
 
 /// Periods in which cycles up to [`MAX_PERIOD`](super::MAX_PERIOD) come back three times and more. The row itself was
@@ -43,10 +45,15 @@ pub fn labels<F>(
 where
     F: Fn(f64) -> Result<Model, ModelError> + Sync,
 {
-    let ended: Vec<(usize, &SweepRow, &Point)> = completed(rows).collect();
+    let ended: Vec<(usize, f64, &Point)> = rows
+        .iter()
+        .enumerate()
+        .filter(|(_, row)| row.status == Ok(Status::Completed))
+        .filter_map(|(index, row)| Some((index, row.value, row.end.as_ref()?)))
+        .collect();
     let start_at = |number: usize| {
-        let (_, row, point) = ended[number];
-        Ok((model_at(row.value)?, point.clone()))
+        let (_, value, point) = ended[number];
+        Ok((model_at(value)?, point.clone()))
     };
     let search = Search {
         transient: RETURNS,
@@ -59,16 +66,13 @@ where
         &search,
         control,
         |number, found| {
-            let unknown = Label {
-                kind: Kind::Undecided,
-                exponent: None,
-                confidence: None,
+            let motion = found.attractor.as_ref().ok();
+            let label = Label {
+                kind: motion.map_or(Kind::Undecided, |motion| motion.kind),
+                exponent: motion.and_then(|motion| motion.exponent),
+                confidence: motion.and_then(|motion| motion.confidence),
+                end: found.arrival.map(|arrival| arrival.point),
             };
-            let label = found.attractor.map_or(unknown, |motion| Label {
-                kind: motion.kind,
-                exponent: motion.exponent,
-                confidence: motion.confidence,
-            });
             labels[ended[number].0] = Some(label);
             Ok::<(), StudyError>(())
         },
@@ -76,13 +80,14 @@ where
     Ok(labels)
 }
 
-/// The `columns` largest Lyapunov exponents (per forcing period) over `periods` periods from the end of each row;
-/// none for rows that were not run to their ends, or whose motion ends early now.
+/// The `columns` largest Lyapunov exponents (per forcing period) of the motion of each row, over `periods` periods
+/// from where its label was found; none without a label, or if the motion ends early now.
 ///
 /// # Errors
 /// As [`growth`].
 pub fn exponents<F>(
     rows: &[SweepRow],
+    labels: &[Option<Label>],
     model_at: F,
     columns: usize,
     periods: u64,
@@ -91,11 +96,13 @@ pub fn exponents<F>(
 where
     F: Fn(f64) -> Result<Model, ModelError> + Sync,
 {
-    let ended: Vec<(usize, &SweepRow, &Point)> = completed(rows).collect();
+    let labelled: Vec<(usize, f64, &Point)> = (rows.iter().zip(labels).enumerate())
+        .filter_map(|(index, (row, label))| Some((index, row.value, label.as_ref()?.end.as_ref()?)))
+        .collect();
     let mut exponents = vec![Vec::new(); rows.len()];
-    for some in ended.chunks(TOGETHER) {
-        let start = |&(_, row, point): &(usize, &SweepRow, &Point)| {
-            Ok::<_, ModelError>((model_at(row.value)?, point.clone()))
+    for some in labelled.chunks(TOGETHER) {
+        let start = |&(_, value, point): &(usize, f64, &Point)| {
+            Ok::<_, ModelError>((model_at(value)?, point.clone()))
         };
         let starts = some.iter().map(start).collect::<Result<Vec<_>, _>>()?;
         let found = growth(&starts, columns, periods, control)?;
@@ -106,12 +113,4 @@ where
         }
     }
     Ok(exponents)
-}
-
-/// Rows that were run to their ends, with their numbers and last states.
-fn completed(rows: &[SweepRow]) -> impl Iterator<Item = (usize, &SweepRow, &Point)> {
-    rows.iter().enumerate().filter_map(|(index, row)| {
-        let end = row.end.as_ref()?;
-        (row.status == Ok(Status::Completed)).then_some((index, row, end))
-    })
 }
