@@ -35,6 +35,7 @@ const ZERO_IS_FINE: &[&str] = &[
     "simulate.transient",
     "start.v",
     "start.z",
+    "sweep.exponents",
     "sweep.from", // of a damping ratio
     "sweep.to",
     "sweep.transient",
@@ -203,6 +204,7 @@ fn is_whole(key: &str) -> bool {
         "period",
         "segments",
         "exponents",
+        "exponent_periods",
         "replicas",
         "points",
         "doublings",
