@@ -57,7 +57,7 @@ fn default_record() -> u32 {
     100
 }
 
-/// Tells an exponent of some 0.03 from zero.
+/// In chaos the largest exponent is then known to some 0.03, as a standard error.
 fn default_exponent_periods() -> u32 {
     400
 }
