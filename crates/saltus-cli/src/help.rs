@@ -54,15 +54,23 @@ JSON (--json, and sweep.json in --out):
                   velocity z'/(eta omega_h) (-); a list for one jumper, a list
                   of lists for several
     contact_ratio part of the recorded time on the floor (-), likewise
-    recurrence    after how many periods the samples repeat to 1e-6; null if
-                  not within half of them. A count, no proof of periodicity
+    label         what the motion is that goes on from the last state:
+                  \"periodic\", \"quasi-periodic\", \"chaotic\" or \"undecided\"; null
+                  if the row ended early. Up to 2000 more periods are run
+    period        forcing periods of a cycle, at most 32; else null
+    confidence    of the test behind the label or, if undecided, of the sign of
+                  the exponent; null for a cycle known by its returns
+    exponents     the sweep.exponents largest Lyapunov exponents, followed from
+                  there for sweep.exponent_periods: per_period (natural
+                  logarithm) and standard_error. With 0 that which the label
+                  took, if any
     status        as in `saltus simulate`, or \"no-model\"
     status_text   the same in a sentence
   version, study (as resolved)
 
 Folder (--out):
-  study.toml, sweep.json, sweep.csv (samples), rows.csv and the figure
-  bifurcation as SVG and PNG.
+  study.toml, sweep.json, sweep.csv (samples), rows.csv and the figures
+  bifurcation and, with sweep.exponents, exponents as SVG and PNG.
 
 A value that has no model, or whose run ends early, is a row that says so. Only
 if no row is completed nothing is printed or written, and the exit code is 1 (2

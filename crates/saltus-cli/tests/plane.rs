@@ -186,7 +186,7 @@ fn a_pixel_is_what_sweep_gives() {
         .as_array()
         .unwrap()
         .iter()
-        .map(|row| row["recurrence"].as_u64().unwrap())
+        .map(|row| row["period"].as_u64().unwrap())
         .collect();
     assert_eq!(of_sweep, [2, 1, 1]);
     assert!(

@@ -51,6 +51,8 @@ fn json_tells_passes_and_rows() {
             assert_eq!(row[key].as_array().unwrap().len(), 4);
             assert!(row[key][3].is_f64());
         }
+        assert!(row["label"].is_string() && row.get("recurrence").is_none());
+        assert_eq!(row["period"].is_u64(), row["label"] == "periodic");
         let ratio = row["contact_ratio"].as_f64().unwrap();
         assert!((0.0..=1.0).contains(&ratio), "{ratio}");
     }
@@ -165,6 +167,93 @@ fn out_is_a_whole_folder() {
     };
     assert_eq!(lines("sweep.csv"), 1 + 14 * 4);
     assert_eq!(lines("rows.csv"), 1 + 14);
+}
+
+/// Chaos, 4T and 2T at the frequency ratio 1.0 (DP Fig. 2b).
+const THREE: [&str; 14] = [
+    "--set",
+    "sweep.from=0.12",
+    "--set",
+    "sweep.to=0.3",
+    "--set",
+    "sweep.count=3",
+    "--set",
+    "sweep.transient=300",
+    "--set",
+    "sweep.direction=restarts",
+    "--set",
+    "sweep.starts=[[3.0, 2.0]]",
+    "--set",
+    "sweep.exponent_periods=60",
+];
+
+#[test]
+fn motions_have_labels_and_only_doubtful_ones_an_exponent() {
+    let found = sweep(&Desk::new(), &THREE);
+    let [chaos, cycles @ ..] = &rows(&found)[..] else {
+        panic!("{found}")
+    };
+    assert_eq!(chaos["label"], "chaotic");
+    assert!(chaos["confidence"].as_f64().unwrap() >= 0.999);
+    assert!(chaos["exponents"][0]["per_period"].as_f64().unwrap() > 0.0);
+    for (cycle, period) in cycles.iter().zip([4, 2]) {
+        assert_eq!(
+            (&cycle["label"], &cycle["period"]),
+            (&"periodic".into(), &period.into())
+        );
+        assert_eq!(cycle["confidence"], Value::Null);
+        assert_eq!(cycle["exponents"], serde_json::json!([]));
+    }
+    let desk = Desk::new();
+    let paper = desk.paper();
+    let text = saltus(&["sweep", &paper]).args(SMALL).args(THREE).assert();
+    text.success()
+        .stdout(contains("1 x 2T, 1 x 4T, 1 chaotic\n"));
+}
+
+#[test]
+fn exponents_are_followed_along_each_pass() {
+    let desk = Desk::new();
+    let out = desk.str("results");
+    let more = [
+        "--set",
+        "sweep.direction=both",
+        "--set",
+        "sweep.exponents=2",
+        "--out",
+        &out,
+    ];
+    let found = sweep(&desk, &[&THREE[..], &more].concat());
+    for row in rows(&found) {
+        let rates = row["exponents"].as_array().unwrap();
+        assert_eq!(rates.len(), 2);
+        assert!(
+            rates
+                .iter()
+                .all(|rate| rate["standard_error"].as_f64().unwrap() > 0.0)
+        );
+        let largest = rates[0]["per_period"].as_f64().unwrap();
+        assert_eq!(row["label"] == "chaotic", largest > 0.0, "{row}");
+    }
+    let folder = files(&desk.path("results"));
+    let table = String::from_utf8(folder["rows.csv"].clone()).unwrap();
+    assert!(table.contains("status_text,exponent_1,error_1,exponent_2,error_2"));
+    let svg = String::from_utf8(folder["exponents.svg"].clone()).unwrap();
+    for words in ["rising", "falling", "Chaotic", "Zero"] {
+        assert!(svg.contains(words), "{words}");
+    }
+}
+
+#[test]
+fn more_exponents_than_states_are_refused_by_key() {
+    let desk = Desk::new();
+    let paper = desk.paper();
+    saltus(&["sweep", &paper])
+        .args(SMALL)
+        .args(["--set", "sweep.exponents=11"])
+        .assert()
+        .code(2)
+        .stderr(contains("sweep.exponents = 11").and(contains("10 states")));
 }
 
 #[test]

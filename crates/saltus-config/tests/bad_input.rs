@@ -10,6 +10,7 @@ const ZERO_IS_FINE: &[&str] = &[
     "attractors.to",
     "attractors.transient",
     "base.amplitude",
+    "basins.exponent",
     "basins.transient",
     "basins.x.from",
     "basins.x.to",
@@ -24,6 +25,7 @@ const ZERO_IS_FINE: &[&str] = &[
     "jumper.damping_ratio",
     "lyapunov.exponents",
     "lyapunov.transient",
+    "map.exponent",
     "map.transient",
     "map.x.from", // of a damping ratio
     "map.x.to",
@@ -35,6 +37,7 @@ const ZERO_IS_FINE: &[&str] = &[
     "simulate.transient",
     "start.v",
     "start.z",
+    "sweep.exponents",
     "sweep.from", // of a damping ratio
     "sweep.to",
     "sweep.transient",
@@ -202,7 +205,9 @@ fn is_whole(key: &str) -> bool {
         "record",
         "period",
         "segments",
+        "exponent",
         "exponents",
+        "exponent_periods",
         "replicas",
         "points",
         "doublings",

@@ -92,6 +92,16 @@ fn tell(
     }
 }
 
+/// Refuses a key that asks for more Lyapunov exponents than there are; `zero` says what 0 means there.
+fn too_many_exponents(key: &str, asked: usize, states: usize, zero: &str) -> Failure {
+    Failure::refused(
+        format!(
+            "{key} = {asked}: there is one exponent per state, and the model has {states} states"
+        ),
+        format!("1 to {states} would do, or 0 for {zero}"),
+    )
+}
+
 /// Said in the titles of figures, because a figure leaves its folder.
 fn setting(study: &Study, model: &Model) -> String {
     let hertz = model.scales().omega / std::f64::consts::TAU;

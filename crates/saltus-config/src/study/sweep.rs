@@ -34,6 +34,15 @@ pub struct SweepTable {
     #[serde(default = "default_record")]
     #[garde(range(min = 1, max = 10_000_000))]
     pub record: u32,
+    /// How many of the largest Lyapunov exponents to follow at each value, once the motion has its label (-, a whole
+    /// number), such as 2; 0: only where the label of the motion needs one.
+    #[serde(default)]
+    #[garde(range(min = 0, max = 100_000))]
+    pub exponents: u32,
+    /// Forcing periods over which they are followed (-, a whole number), such as 400.
+    #[serde(default = "default_exponent_periods")]
+    #[garde(range(min = 1, max = 10_000_000))]
+    pub exponent_periods: u32,
     /// First states [z/η, z'/(η ω_h)] of every jumper for "restarts" (-), such as [[3.0, 2.0], [-1.0, 0.0]].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[garde(skip)]
@@ -48,6 +57,11 @@ fn default_record() -> u32 {
     100
 }
 
+/// In chaos the largest exponent is then known to some 0.03, as a standard error.
+fn default_exponent_periods() -> u32 {
+    400
+}
+
 impl SweepTable {
     /// DP Fig. 2b.
     pub(super) fn paper() -> Self {
@@ -59,6 +73,8 @@ impl SweepTable {
             direction: Direction::Both,
             transient: default_transient(),
             record: default_record(),
+            exponents: 0,
+            exponent_periods: default_exponent_periods(),
             starts: vec![[3.0, 2.0], [-1.0, 0.0], [5.0, -2.0]],
         }
     }

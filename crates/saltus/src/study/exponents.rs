@@ -1,6 +1,6 @@
 //! Lyapunov exponents of long-term motions, by the tangent flow.
 
-use saltus_hybrid::{End, Leg, Point, Sample, Status, System, Task, integrate_all};
+use saltus_hybrid::{End, Leg, Point, Sample, Status, System, Task, integrate_groups};
 use saltus_orbits::{Exponent, Spectrum};
 
 use super::{Control, StudyError, settle};
@@ -22,7 +22,7 @@ pub struct Growth {
 }
 
 /// The `columns` largest exponents over `periods` periods from each start, which is best on an attractor
-/// already. All models must have the same program.
+/// already. Models of the same program share the lanes.
 ///
 /// # Errors
 /// [`StudyError`] for options out of range, more columns than states, or when stopped.
@@ -32,7 +32,8 @@ pub fn growth(
     periods: u64,
     control: &Control,
 ) -> Result<Vec<Growth>, StudyError> {
-    let tasks = starts.iter().map(|(model, point)| {
+    let mut groups: Vec<Vec<Climb>> = Vec::new();
+    for (number, (model, point)) in starts.iter().enumerate() {
         let spectrum = Spectrum::new(model.free_states(), columns)?;
         let system = model
             .system()
@@ -41,10 +42,15 @@ pub fn growth(
         let mut start = system.point(&point.modes, &point.x[..model.free_states()]);
         let first = spectrum.start_columns();
         system.columns_mut(&mut start.x).copy_from_slice(&first);
-        Ok(Climb {
+        let group = groups
+            .iter_mut()
+            .find(|group| system.same_structure(&group[0].system));
+        let climb = Climb {
+            number,
             model,
             control,
-            leg: Some((system, start)),
+            system,
+            start: Some(start),
             periods: ALIGNMENT + periods,
             out: Growth {
                 spectrum,
@@ -52,32 +58,37 @@ pub fn growth(
                 status: Status::Completed,
             },
             failed: false,
-        })
-    });
-    let mut tasks = tasks.collect::<Result<Vec<_>, StudyError>>()?;
-    if let Some(first) = tasks
-        .first()
-        .and_then(|task| Some(task.leg.as_ref()?.0.clone()))
-    {
-        for (system, _) in tasks.iter_mut().filter_map(|task| task.leg.as_mut()) {
-            *system = system.clone().sharing(&first);
+        };
+        match group {
+            Some(group) => group.push(climb.sharing(&group[0])),
+            None => groups.push(vec![climb]),
         }
     }
-    let ended = integrate_all(&control.options, tasks, control.threads, &control.stop)?;
+    let ended = integrate_groups(&control.options, groups, control.threads, &control.stop)?;
+    let mut ended: Vec<Climb> = ended.into_iter().flatten().collect();
+    ended.sort_by_key(|climb| climb.number);
     Ok(ended.into_iter().map(Climb::result).collect())
 }
 
 /// One trajectory with its columns.
 struct Climb<'a> {
+    number: usize,
     model: &'a Model,
     control: &'a Control,
-    leg: Option<(System, Point)>,
+    system: System,
+    start: Option<Point>,
     periods: u64,
     out: Growth,
     failed: bool,
 }
 
 impl Climb<'_> {
+    /// With the structure object of another, which makes later comparisons cheap.
+    fn sharing(mut self, other: &Self) -> Self {
+        self.system = self.system.sharing(&other.system);
+        self
+    }
+
     fn result(mut self) -> Growth {
         self.out.divergence /= self.out.spectrum.iterates().max(1) as f64;
         self.out
@@ -86,10 +97,9 @@ impl Climb<'_> {
 
 impl Task for Climb<'_> {
     fn begin(&mut self) -> Option<Leg> {
-        let (system, start) = self.leg.take()?;
         Some(Leg {
-            system,
-            start,
+            system: self.system.clone(),
+            start: self.start.take()?,
             periods: self.periods,
         })
     }

@@ -15,6 +15,7 @@ mod orbits;
 pub mod paper;
 mod peaks;
 mod recurrence;
+mod rows;
 mod second;
 mod settle;
 mod starts;
@@ -36,6 +37,7 @@ pub use orbits::{
     sequence, stroboscopic,
 };
 pub use recurrence::recurrence;
+pub use rows::{Label, exponents, labels};
 pub use saltus_orbits::MAX_PERIOD;
 pub use second::second_opinion;
 pub use settle::{Settled, settle};

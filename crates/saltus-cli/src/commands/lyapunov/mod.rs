@@ -59,12 +59,8 @@ fn question(study: &Study, model: &Model) -> Result<Measurement, Failure> {
         0 => states,
         asked if asked <= states => asked,
         asked => {
-            return Err(Failure::refused(
-                format!(
-                    "lyapunov.exponents = {asked}: there is one exponent per state, and the model has {states} states"
-                ),
-                format!("1 to {states} would do, or 0 for all"),
-            ));
+            let key = "lyapunov.exponents";
+            return Err(super::too_many_exponents(key, asked, states, "all"));
         }
     };
     Ok(Measurement {

@@ -1,10 +1,11 @@
-//! The bifurcation diagram.
+//! The bifurcation diagram, and the exponents along it.
 
 use super::Run;
+use super::report::{LABELS, Rate, Report, Row};
 use crate::commands::{base_in_title, capitalized};
 use crate::per_jumper::{PANELS, panel_title};
 use saltus::study::Pass;
-use saltus_results::{Axis, Cloud, Figure};
+use saltus_results::{Axis, Cloud, Curves, Figure, Panel};
 
 pub(super) fn bifurcation(run: &Run) -> Figure {
     let title = format!("Bifurcation diagram: {}", setting(run));
@@ -42,6 +43,72 @@ fn cloud(run: &Run, jumper: usize, title: &str) -> Cloud {
         let (values, heights): (Vec<f64>, Vec<f64>) = points.unzip();
         cloud.series(label(run, pass), values, heights)
     })
+}
+
+/// Exponents drawn at most: there are no more colours for curves.
+const CURVES: usize = 7;
+
+/// One panel per pass: the exponents over the parameter, and behind them what the motion is.
+pub(super) fn exponents(run: &Run, report: &Report) -> Figure {
+    let count = run.table.exponents as usize;
+    let which = match count {
+        _ if count > CURVES => format!(" (the largest {CURVES} of {count})"),
+        _ => String::new(),
+    };
+    let title = format!(
+        "Lyapunov exponents{which}: {}{} forcing periods per value",
+        base_in_title(run.study, Some(&run.parameter)),
+        run.table.exponent_periods
+    );
+    let passes = run.sweep.passes.iter().enumerate().take(PANELS);
+    let panels = passes.map(|(index, pass)| {
+        let rows: Vec<&Row> = report.rows.iter().filter(|row| row.pass == index).collect();
+        Panel::from(spectrum(run, &label(run, pass), &rows))
+    });
+    Figure::grid(1, panels).title(title)
+}
+
+fn spectrum(run: &Run, title: &str, rows: &[&Row]) -> Curves {
+    let values: Vec<f64> = rows.iter().map(|row| row.value).collect();
+    let plot = Curves::new(
+        title,
+        Axis::new(capitalized(&run.parameter.label())),
+        Axis::new("Mean growth per forcing period (-)"),
+    );
+    let count = (run.table.exponents as usize).min(CURVES);
+    let plot = (0..count).fold(plot, |plot, k| {
+        let of = |value: fn(&Rate) -> f64| -> Vec<f64> {
+            let rates = rows.iter().map(|row| row.exponents.get(k));
+            rates.map(|rate| rate.map_or(f64::NAN, value)).collect()
+        };
+        plot.line(
+            format!("λ_{}", k + 1),
+            &values[..],
+            of(|rate| rate.per_period),
+        )
+        .band(
+            "± one standard error",
+            of(|rate| rate.per_period - rate.standard_error),
+            of(|rate| rate.per_period + rate.standard_error),
+        )
+    });
+    // all of them, so that a colour means the same in every figure
+    LABELS.iter().fold(plot.level("Zero", 0.0), |plot, name| {
+        let its = rows.iter().enumerate();
+        let its = its.filter(|(_, row)| row.label == Some(name));
+        let intervals: Vec<_> = its.map(|(i, _)| around(&values, i)).collect();
+        plot.shade(capitalized(name), &intervals)
+    })
+}
+
+/// From halfway to the value before to halfway to the value after.
+fn around(values: &[f64], i: usize) -> (f64, f64) {
+    let halfway = |j: usize| {
+        let other = values.get(j).unwrap_or(&values[i]);
+        f64::midpoint(values[i], *other)
+    };
+    let (a, b) = (halfway(i.wrapping_sub(1)), halfway(i + 1));
+    (a.min(b), a.max(b))
 }
 
 /// Entry of the legend.

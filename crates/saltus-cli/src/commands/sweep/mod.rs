@@ -12,7 +12,9 @@ use crate::folder::Folder;
 use crate::{interrupt, progress, status};
 use report::Report;
 use saltus::hybrid::Status;
-use saltus::study::{Pass, Sweep, SweepRow};
+use saltus::model::ModelError;
+use saltus::orbits::Exponent;
+use saltus::study::{Control, Label, Pass, StudyError, Sweep, SweepRow};
 use saltus_config::{Direction, Parameter, Study, SweepTable};
 
 /// Shown to those whose study has none.
@@ -29,10 +31,18 @@ add a table that says what changes, such as
 /// A sweep with its question.
 struct Run<'a> {
     study: &'a Study,
+    table: &'a SweepTable,
     parameter: Parameter,
     sweep: Sweep,
     rows: Vec<SweepRow>,
+    /// What each row is; none if it was not run to its end.
+    labels: Vec<Option<Label>>,
+    /// Of each row as many as were asked for, or that one which its label took.
+    exponents: Vec<Vec<Exponent>>,
 }
+
+/// Forcing periods that a label takes, roughly: most motions are on a cycle when their row ends.
+const LABELLING: u64 = 50;
 
 pub(super) fn run(args: &WorkArgs) -> Result<(), Failure> {
     let study = super::load(&args.study, &[])?;
@@ -41,16 +51,21 @@ pub(super) fn run(args: &WorkArgs) -> Result<(), Failure> {
     let control = super::control(&study, &args.threads);
     let folder = super::folder(&args.output, &study)?;
     let models = Models::new(&study, &[&parameter], control.options);
-    let work = || saltus::study::sweep(&sweep, |value| models.at(&[value]), &control);
-    let (total, quiet) = (sweep.periods(), args.output.quiet);
-    let rows = progress::follow(total, "periods", quiet, &control.done, work)?;
+    refuse_if_too_many_exponents(table, &models)?;
+    let work = || measure(&sweep, table, &models, &control);
+    let (total, quiet) = (periods(&sweep, table), args.output.quiet);
+    let what = "periods, about";
+    let (rows, labels, exponents) = progress::follow(total, what, quiet, &control.done, work)?;
     interrupt::check()?;
     refuse_if_all_failed(&rows)?;
     let run = Run {
         study: &study,
+        table,
         parameter,
         sweep,
         rows,
+        labels,
+        exponents,
     };
     let report = Report::new(&run);
     if let Some(folder) = folder {
@@ -105,6 +120,67 @@ fn plan(study: &Study, table: &SweepTable) -> Sweep {
     }
 }
 
+/// Asked of the first value that has a model: all have the same states.
+fn refuse_if_too_many_exponents(table: &SweepTable, models: &Models) -> Result<(), Failure> {
+    let asked = table.exponents as usize;
+    let model = || {
+        table
+            .values()
+            .into_iter()
+            .find_map(|v| models.at(&[v]).ok())
+    };
+    let Some(model) = (asked > 0).then(model).flatten() else {
+        return Ok(());
+    };
+    let states = model.free_states();
+    if asked > states {
+        let (key, zero) = ("sweep.exponents", "none but those that labels need");
+        return Err(super::too_many_exponents(key, asked, states, zero));
+    }
+    let program = model.system().with_tangents(asked);
+    program
+        .map(drop)
+        .map_err(|error| ModelError::from(error).into())
+}
+
+/// About how many forcing periods it takes in all.
+fn periods(sweep: &Sweep, table: &SweepTable) -> u64 {
+    let rows = (sweep.values.len() * sweep.passes.len()) as u64;
+    let followed = match table.exponents {
+        0 => 0,
+        _ => table.exponent_periods.into(),
+    };
+    sweep.periods() + rows * (LABELLING + followed)
+}
+
+type Measured = (Vec<SweepRow>, Vec<Option<Label>>, Vec<Vec<Exponent>>);
+
+/// The rows, what each is, and its exponents.
+fn measure(
+    sweep: &Sweep,
+    table: &SweepTable,
+    models: &Models,
+    control: &Control,
+) -> Result<Measured, StudyError> {
+    let model_at = |value| models.at(&[value]);
+    let rows = saltus::study::sweep(sweep, model_at, control)?;
+    let labels = saltus::study::labels(&rows, model_at, control)?;
+    let exponents = match table.exponents as usize {
+        0 => {
+            let of_label = |label: &Option<Label>| label.as_ref().and_then(|label| label.exponent);
+            labels
+                .iter()
+                .map(|l| of_label(l).into_iter().collect())
+                .collect()
+        }
+        count => {
+            let periods = table.exponent_periods.into();
+            saltus::study::exponents(&rows, &labels, model_at, count, periods, control)?
+        }
+    };
+    Ok((rows, labels, exponents))
+}
+
 /// Nothing is worth keeping if no value was run to its end.
 fn refuse_if_all_failed(rows: &[SweepRow]) -> Result<(), Failure> {
     if rows.iter().any(completed) {
@@ -128,6 +204,9 @@ fn write(mut folder: Folder, run: &Run, report: &Report) -> Result<(), Failure> 
     folder.json("sweep.json", report)?;
     tables::write(&mut folder, run, report)?;
     folder.figure("bifurcation", &figures::bifurcation(run))?;
+    if run.table.exponents > 0 {
+        folder.figure("exponents", &figures::exponents(run, report))?;
+    }
     folder.commit().map(drop)
 }
 

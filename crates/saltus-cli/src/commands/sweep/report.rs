@@ -1,10 +1,10 @@
 //! The JSON document of a sweep.
 
 use super::Run;
-use crate::commands::repeats;
 use crate::per_jumper::PerJumper;
 use crate::status;
-use saltus::study::{Pass, SweepRow};
+use saltus::orbits::Exponent;
+use saltus::study::{Kind, Pass};
 use saltus_config::Study;
 use serde::Serialize;
 
@@ -35,9 +35,19 @@ pub(super) struct Row<'a> {
     pub(super) z: PerJumper<&'a [f64]>,
     pub(super) v: PerJumper<&'a [f64]>,
     pub(super) contact_ratio: PerJumper<f64>,
-    pub(super) recurrence: Option<u32>,
+    pub(super) label: Option<&'static str>,
+    pub(super) period: Option<u32>,
+    pub(super) confidence: Option<f64>,
+    pub(super) exponents: Vec<Rate>,
     pub(super) status: &'static str,
     pub(super) status_text: String,
+}
+
+/// An exponent; JSON has no -inf and no inf, so they are null.
+#[derive(Serialize)]
+pub(super) struct Rate {
+    pub(super) per_period: f64,
+    pub(super) standard_error: f64,
 }
 
 impl<'a> Report<'a> {
@@ -52,14 +62,20 @@ impl<'a> Report<'a> {
             unit: run.parameter.unit(),
             label: run.parameter.label(),
             passes: run.sweep.passes.iter().map(pass).collect(),
-            rows: run.rows.iter().map(|row| Row::new(run, row)).collect(),
+            rows: (0..run.rows.len()).map(|row| Row::new(run, row)).collect(),
             study: run.study,
         }
     }
 }
 
 impl<'a> Row<'a> {
-    fn new(run: &Run, row: &'a SweepRow) -> Self {
+    fn new(run: &'a Run, index: usize) -> Self {
+        let row = &run.rows[index];
+        let label = run.labels[index].as_ref();
+        let rate = |exponent: &Exponent| Rate {
+            per_period: exponent.per_iterate,
+            standard_error: exponent.standard_error,
+        };
         let pass = &run.sweep.passes[row.pass];
         Self {
             pass: row.pass,
@@ -71,7 +87,10 @@ impl<'a> Row<'a> {
             contact_ratio: (0..run.jumpers())
                 .map(|i| row.contact_ratio.get(i).copied().unwrap_or(f64::NAN))
                 .collect(),
-            recurrence: recurrence(run, row),
+            label: label.map(|label| name(label.kind)),
+            period: label.and_then(|label| period(label.kind)),
+            confidence: label.and_then(|label| label.confidence),
+            exponents: run.exponents[index].iter().map(rate).collect(),
             status: row.status.as_ref().map_or("no-model", |end| end.name()),
             status_text: match &row.status {
                 Ok(end) => status::text(end, None),
@@ -88,15 +107,23 @@ fn of_each<'a>(run: &Run, samples: &'a [Vec<f64>]) -> PerJumper<&'a [f64]> {
         .collect()
 }
 
-/// A run that ended early repeats nothing.
-fn recurrence(run: &Run, row: &SweepRow) -> Option<u32> {
-    if !super::completed(row) {
-        return None;
+/// All names of motions.
+pub(super) const LABELS: [&str; 4] = ["periodic", "quasi-periodic", "chaotic", "undecided"];
+
+fn name(kind: Kind) -> &'static str {
+    LABELS[match kind {
+        Kind::Periodic(_) => 0,
+        Kind::QuasiPeriodic => 1,
+        Kind::Chaotic => 2,
+        Kind::NotPeriodic | Kind::Undecided => 3,
+    }]
+}
+
+fn period(kind: Kind) -> Option<u32> {
+    match kind {
+        Kind::Periodic(n) => Some(n),
+        _ => None,
     }
-    let count = row.z.first().map_or(0, Vec::len);
-    repeats::every(run.jumpers(), count, |i| {
-        (row.z[i].clone(), row.v[i].clone())
-    })
 }
 
 /// Word for a pass.

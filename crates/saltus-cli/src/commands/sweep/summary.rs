@@ -1,7 +1,7 @@
 //! What `saltus sweep` says to people.
 
 use super::Run;
-use super::report::{Report, Row};
+use super::report::{LABELS, Report, Row};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -25,7 +25,14 @@ pub(super) fn text(run: &Run, report: &Report) -> String {
             )
         });
         // writing to a string cannot fail
-        let _ = writeln!(text, "  {name:<18} {}", tally(run, &rows));
+        let _ = writeln!(text, "  {name:<18} {}", tally(&rows));
+        if let Some([low, high]) = largest(&rows).filter(|_| run.table.exponents > 0) {
+            let _ = writeln!(
+                text,
+                "  {:<18} largest exponent from {low:.4} to {high:.4} per forcing period",
+                ""
+            );
+        }
     }
     if let Some(row) = report.rows.iter().find(|row| row.status != "completed") {
         let _ = writeln!(
@@ -34,27 +41,33 @@ pub(super) fn text(run: &Run, report: &Report) -> String {
             row.value, row.status_text
         );
     }
-    text + "Counts of what repeats to 1e-6, no proof of periodicity.\n"
+    text + NOTE
 }
 
-/// How many values repeat after how many periods.
-fn tally(run: &Run, rows: &[&Row]) -> String {
-    let mut counts: BTreeMap<u32, usize> = BTreeMap::new();
-    for n in rows.iter().filter_map(|row| row.recurrence) {
-        *counts.entry(n).or_default() += 1;
+const NOTE: &str = "\
+Periods are seen in returns that no transient explains, all else in the largest
+exponent, each name at a confidence of 0.999.
+";
+
+/// How many values have which motion: the periods first, the shortest before the others.
+fn tally(rows: &[&Row]) -> String {
+    let mut counts: BTreeMap<(usize, u32), usize> = BTreeMap::new();
+    for row in rows {
+        let label = LABELS.iter().position(|name| row.label == Some(name));
+        let place = label.unwrap_or(LABELS.len());
+        *counts.entry((place, row.period.unwrap_or(0))).or_default() += 1;
     }
-    let failed = rows.iter().filter(|row| row.status != "completed").count();
-    let open = rows.len() - failed - counts.values().sum::<usize>();
-    let mut parts: Vec<String> = counts
-        .iter()
-        .map(|(n, count)| format!("{count} x {n}T"))
-        .collect();
-    if open > 0 {
-        let within = run.sweep.record / 2;
-        parts.push(format!("{open} without repetition within {within} periods"));
-    }
-    if failed > 0 {
-        parts.push(format!("{failed} ended early"));
-    }
+    let part = |(&(place, period), count): (&(usize, u32), &usize)| match LABELS.get(place) {
+        Some(_) if period > 0 => format!("{count} x {period}T"),
+        name => format!("{count} {}", name.unwrap_or(&"ended early")),
+    };
+    let parts: Vec<String> = counts.iter().map(part).collect();
     parts.join(", ")
+}
+
+/// Smallest and largest of the largest exponents.
+fn largest(rows: &[&Row]) -> Option<[f64; 2]> {
+    let all = rows.iter().filter_map(|row| row.exponents.first());
+    all.map(|rate| [rate.per_period; 2])
+        .reduce(|[low, high], [value, _]| [low.min(value), high.max(value)])
 }

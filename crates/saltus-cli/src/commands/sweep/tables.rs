@@ -37,8 +37,16 @@ pub(super) fn write(folder: &mut Folder, run: &Run, report: &Report) -> Result<(
             "part of the recorded time on the floor (-)",
         ),
         (
-            "recurrence",
-            "forcing periods after which the samples repeat to 1e-6",
+            "label",
+            "periodic with its period, quasi-periodic, chaotic or undecided",
+        ),
+        (
+            "confidence",
+            "of the test behind the label; empty for a cycle known by its returns",
+        ),
+        (
+            "exponent",
+            "mean growth of a small deviation, with its standard error (1/forcing period)",
         ),
     ];
     let header = [
@@ -49,12 +57,27 @@ pub(super) fn write(folder: &mut Folder, run: &Run, report: &Report) -> Result<(
         "value",
         "jumper",
         "contact_ratio",
-        "recurrence",
+        "label",
+        "period",
+        "confidence",
         "status",
         "status_text",
     ];
-    let rows = report.rows.iter().flat_map(jumpers);
-    folder.table("rows.csv", &settings, &header.map(str::to_owned), rows)
+    // without a question the one that a label took
+    let exponents = run.table.exponents.max(1) as usize;
+    let columns = (1..=exponents).flat_map(|k| [format!("exponent_{k}"), format!("error_{k}")]);
+    let header: Vec<String> = header
+        .map(str::to_owned)
+        .into_iter()
+        .chain(columns)
+        .collect();
+    let lines = |row| jumpers(row, exponents);
+    folder.table(
+        "rows.csv",
+        &settings,
+        &header,
+        report.rows.iter().flat_map(lines),
+    )
 }
 
 /// One line per jumper and sample.
@@ -75,25 +98,36 @@ fn samples<'a>(row: &'a Row<'a>) -> impl Iterator<Item = Vec<Value>> + 'a {
     pairs.enumerate().flat_map(of_jumper)
 }
 
-/// One line per jumper.
-fn jumpers<'a>(row: &'a Row<'a>) -> impl Iterator<Item = Vec<Value>> + 'a {
+/// One line per jumper, with so many exponents.
+fn jumpers<'a>(row: &'a Row<'a>, exponents: usize) -> impl Iterator<Item = Vec<Value>> + 'a {
     let ratios: &PerJumper<f64> = &row.contact_ratio;
     ratios
         .as_slice()
         .iter()
         .enumerate()
-        .map(|(jumper, &ratio)| {
-            vec![
+        .map(move |(jumper, &ratio)| {
+            let known = [
                 Value::Integer(row.pass as i64),
                 row.direction.into(),
                 row.start[0].into(),
                 row.start[1].into(),
                 row.value.into(),
                 Value::Integer(jumper as i64),
-                Some(ratio).filter(|ratio| ratio.is_finite()).into(),
-                row.recurrence.into(),
+                finite(ratio),
+                row.label.into(),
+                row.period.into(),
+                row.confidence.into(),
                 row.status.into(),
                 row.status_text.as_str().into(),
-            ]
+            ];
+            let rates = (0..exponents).flat_map(|k| match row.exponents.get(k) {
+                Some(rate) => [finite(rate.per_period), finite(rate.standard_error)],
+                None => [Value::Empty, Value::Empty],
+            });
+            known.into_iter().chain(rates).collect()
         })
+}
+
+fn finite(value: f64) -> Value {
+    Some(value).filter(|value| value.is_finite()).into()
 }
