@@ -7,8 +7,8 @@ use saltus::orbits::Nature;
 use saltus::physics::FrequencyReference::{Free, Occupied};
 use saltus::study::Control;
 use saltus::study::paper::{
-    Effort, Verdict, compare_inertia, diagrams, facts, misprints, panel_branches, regimes,
-    run_cases,
+    Effort, PanelBranches, Verdict, compare_inertia, diagrams, facts, misprints, panel_branches,
+    regimes, run_cases,
 };
 
 /// A tenth of the resolution of `saltus reproduce`: seconds.
@@ -30,6 +30,49 @@ fn effort() -> Effort {
     }
 }
 
+/// Each was found by continuation with the tangent flow; the second method takes differences of the flow at given
+/// damping ratios.
+fn special_points(branches: &[PanelBranches]) {
+    let mut all = Vec::new();
+    for panel in branches {
+        for point in &panel.transitions {
+            let second = point.second.unwrap_or(f64::NAN);
+            let difference = (second - point.damping_ratio).abs();
+            assert!(
+                difference < 1e-8,
+                "{} {}: {difference}",
+                panel.ratio,
+                point.label
+            );
+            all.push((
+                panel.ratio,
+                point.kind.short(),
+                point.period,
+                point.damping_ratio,
+            ));
+        }
+    }
+    for (ratio, kind, period, zeta) in [
+        (0.9, "PD", 1, 0.1892865091),
+        (1.0, "HP", 2, 0.4609559739),
+        (1.0, "GR", 2, 0.3377229746),
+        (1.0, "LP", 2, 0.2821760888),
+        (1.0, "LP", 2, 0.2159641559),
+        (1.0, "PD", 2, 0.2232987278),
+        (1.0, "PD", 4, 0.1992401784),
+        (1.1, "GR", 2, 0.4875185673),
+        (1.1, "PD", 2, 0.4076286268),
+        (1.1, "PD", 4, 0.3608913025),
+    ] {
+        let is_it = |p: &&(f64, &str, usize, f64)| p.0 == ratio && p.1 == kind && p.2 == period;
+        let mut there = all.iter().filter(is_it);
+        assert!(
+            there.any(|p| (p.3 - zeta).abs() < 1e-9),
+            "{ratio} {kind} {zeta}: {all:?}"
+        );
+    }
+}
+
 #[test]
 fn every_statement_has_its_verdict() {
     let (effort, control) = (effort(), Control::default());
@@ -37,6 +80,7 @@ fn every_statement_has_its_verdict() {
     let occupied = run_cases(Occupied, &effort, &control).unwrap();
     let free = run_cases(Free, &effort, &control).unwrap();
     let branches = panel_branches(&effort, &control).unwrap();
+    special_points(&branches);
     let facts = facts(&diagrams, &occupied, &free, &branches, &control).unwrap();
     let verdicts: Vec<(&str, Verdict)> = facts.iter().map(|f| (f.id, f.verdict)).collect();
     use Verdict::{Departure, Reproduced};

@@ -2,7 +2,11 @@
 
 #![allow(clippy::unwrap_used)]
 
+use std::sync::atomic::AtomicBool;
+
+use saltus::hybrid::{Method, Options};
 use saltus::model::{Model, Setup};
+use saltus::orbits::{Differences, NewtonOptions, Stroboscopic, find_orbit};
 use saltus::study::{Control, OrbitError, OrbitSearch, orbit, portrait, sequence, simulate};
 
 const SEARCH: OrbitSearch = OrbitSearch {
@@ -101,4 +105,43 @@ fn chaos_has_no_orbit_by_itself_and_an_unstable_one_when_asked() {
         Ok(found) => assert!(!found.stable()),
         Err(other) => panic!("{other}"),
     }
+}
+
+#[test]
+fn the_period_doubling_of_fig_2a_is_where_runge_kutta_puts_it() {
+    // 0.1892865091 by continuation with Taylor series and tangents; here RK4 on a fixed grid, differences of plain
+    // trajectories, and the secant method on the multiplier.
+    let stop = AtomicBool::new(false);
+    let options = Options {
+        method: Method::Rk4 {
+            steps_per_period: 3000,
+        },
+        ..Options::default()
+    };
+    let system = |p: &[f64]| Ok(paper(p[0], 0.9).system().clone());
+    let model = paper(0.19, 0.9);
+    let flow = Stroboscopic::new(system, model.free_states(), options, 0, &stop);
+    let differences = Differences::new(&flow, 1e-5);
+    let start = orbit(&model, &model.start(3.0, 2.0), &SEARCH, &one_thread()).unwrap();
+    let above = |zeta: f64| {
+        let newton = NewtonOptions {
+            tolerance: 1e-10,
+            ..NewtonOptions::default()
+        };
+        let found = find_orbit(&differences, &[zeta], &start.places[..1], &newton).unwrap();
+        let real = found
+            .multipliers
+            .iter()
+            .filter(|m| m.im == 0.0)
+            .map(|m| m.re + 1.0);
+        real.min_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap()
+    };
+    let (mut a, mut b) = (0.1893, 0.1892);
+    let (mut at_a, mut at_b) = (above(a), above(b));
+    for _ in 0..3 {
+        let next = b - at_b * (b - a) / (at_b - at_a);
+        (a, at_a) = (b, at_b);
+        (b, at_b) = (next, above(next));
+    }
+    assert!((b - 0.189_286_509_1).abs() < 1e-8, "{b:.12}");
 }
