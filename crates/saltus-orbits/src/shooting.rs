@@ -11,12 +11,17 @@
 //! so one pass around the orbit leaves n equations for d_1 and dp, whatever the number of segments. Inside
 //! a segment the gaps are zero. Shots of all segments, and those for C by differences, are asked together.
 
+use crate::events::switches;
 use crate::linear::{self, minus, norm, plus, size, times};
 use crate::{Family, Image, Lost, Matrix, NewtonOptions, NotFound, Place, Shot};
 
 /// Differences over this part of a parameter's unit: the cube root of rounding, where the error of central
 /// differences is smallest.
 const DIFFERENCE: f64 = 6e-6;
+
+/// Slopes to the two sides that differ by more than this part tell that there may be a corner in between: in a
+/// smooth map they differ by some 1e-5, and less than this does not hinder Newton's method.
+const CORNER: f64 = 1e-2;
 
 /// A step is cut in halves at most so often.
 const HALVINGS: usize = 6;
@@ -321,15 +326,59 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
         for &i in which {
             let image = checked(answers.next(), places[i].x.len())?;
             let mut columns = Vec::with_capacity(self.free.len());
-            for _ in self.free {
-                let [below, above] =
+            for around in sides.chunks_exact(2) {
+                let mut both =
                     [answers.next(), answers.next()].map(|answer| answer.unwrap_or_else(missing));
+                if has_corner(&image, &both) {
+                    self.drop_other_piece(&image, &places[i], around, &mut both);
+                }
+                let [below, above] = both;
                 columns.push(difference(&image, &below, &above)?);
             }
             all.push((image, columns));
         }
         Ok(all)
     }
+
+    /// Drops the image to one side of a parameter if it has other switches and that to the other side has not:
+    /// it lies on another piece of the map. Near a grazing the slope to that side may have no bound.
+    fn drop_other_piece(
+        &self,
+        image: &Image,
+        start: &Place,
+        around: &[Vec<f64>],
+        both: &mut [Result<Image, Lost>; 2],
+    ) {
+        // Only shots with a derivative tell their switches.
+        let shot = |parameters| Shot {
+            parameters,
+            start,
+            derivative: true,
+        };
+        let shots: Vec<Shot<'_>> = around.iter().map(|side| shot(side)).collect();
+        let here = switches(&image.crossings);
+        let images = self.family.images(&shots).into_iter();
+        let other = images.map(|side| side.is_ok_and(|side| switches(&side.crossings) != here));
+        let other: Vec<bool> = other.collect();
+        if other.contains(&false) {
+            for (side, _) in both.iter_mut().zip(other).filter(|(_, other)| *other) {
+                *side = Err(Lost::Ended("other switches".into()));
+            }
+        }
+    }
+}
+
+/// Whether the slopes to both sides of an image differ.
+fn has_corner(image: &Image, both: &[Result<Image, Lost>; 2]) -> bool {
+    let [Ok(below), Ok(above)] = both else {
+        return false;
+    };
+    let [left, right] = [
+        minus(&image.place.x, &below.place.x),
+        minus(&above.place.x, &image.place.x),
+    ];
+    let steep = size(&left).min(size(&right)).max(DIFFERENCE);
+    size(&minus(&right, &left)) > CORNER * steep
 }
 
 /// Nothing beyond a pass.
