@@ -206,6 +206,16 @@ pub enum ContinuationError {
         /// Kind of the special point.
         short: &'static str,
     },
+    /// A curve that cannot be begun.
+    #[error(
+        "the curve of this {short} cannot be begun: either what makes it one cannot be told from its orbit, such \
+         as the touch of a grazing or the pair of multipliers, or it does not change with the parameters, or no \
+         orbits were found beside it"
+    )]
+    NoDirection {
+        /// Kind of the special point.
+        short: &'static str,
+    },
     /// The start is no orbit.
     #[error("the start is no orbit: {0}")]
     Start(#[from] NotFound),

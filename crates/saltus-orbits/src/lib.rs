@@ -9,6 +9,7 @@ mod branches;
 mod continuation;
 mod crossing;
 mod curve;
+mod differences;
 mod events;
 mod exponents;
 mod flow;

@@ -77,7 +77,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
                             break obstacle;
                         };
                         branch.specials.push(special);
-                        step = self.distance(last, &point).max(self.options.smallest);
+                        step = self.onwards(last, &point);
                         point
                     }
                     Shorter::Step(shorter) => {
@@ -91,7 +91,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
                         let Some(point) = behind else {
                             break End::Grazing;
                         };
-                        step = self.distance(last, &point).max(self.options.smallest);
+                        step = self.onwards(last, &point);
                         point
                     }
                 },
@@ -152,7 +152,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
     }
 
     /// The point `step` ahead, or that at the end of the range before it.
-    fn next(&self, last: &Point, step: f64) -> Result<Point, End> {
+    pub(crate) fn next(&self, last: &Point, step: f64) -> Result<Point, End> {
         let ahead = last.parameter + step * last.pace() * self.free[0].unit;
         let mut point = if self.inside(ahead) == ahead {
             let guess = last.orbit.guess().moved(&self.free, step, &last.spread);
