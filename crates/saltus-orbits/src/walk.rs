@@ -35,11 +35,11 @@ const SAME: f64 = 1e-6;
 
 impl<F: Family + ?Sized> Path<'_, F> {
     /// A branch from a point along its tangent. A branch is `born` at a special point of another one, which
-    /// is none of its own.
+    /// is none of its own; where it comes back there it is closed.
     pub(crate) fn walk(
         &self,
         seed: Point,
-        born: bool,
+        born: Option<&Special>,
         keep_going: &mut dyn FnMut(&Point) -> bool,
     ) -> Branch {
         let mut go_on = keep_going(&seed);
@@ -60,7 +60,8 @@ impl<F: Family + ?Sized> Path<'_, F> {
             if self.leaves(last) {
                 break End::RangeEnd;
             }
-            let point = match self.seen(&branch.points, born, step) {
+            let mut closed = false;
+            let point = match self.seen(&branch.points, born.is_some(), step) {
                 Ok((point, specials)) => {
                     step = self.next_step(last, &point, step);
                     branch.specials.extend(specials);
@@ -68,6 +69,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
                     if branch.specials.last().is_some_and(meets) {
                         break End::Halved;
                     }
+                    closed = self.back_at(born, &mut branch.specials);
                     point
                 }
                 Err(obstacle) => match self.shorter(&branch.points, step, &obstacle) {
@@ -96,7 +98,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
                     }
                 },
             };
-            let closed = self.closed(&branch.points, &point);
+            closed = closed || self.closed(&branch.points, &point);
             go_on = keep_going(&point);
             branch.points.push(point);
             if closed {
@@ -218,6 +220,19 @@ impl<F: Family + ?Sized> Path<'_, F> {
             _ if step / 2.0 < self.options.smallest => Shorter::End,
             _ => Shorter::Step(step / 2.0),
         }
+    }
+
+    /// Whether the last special points are those from the birth of a branch on, which are dropped. There the orbits
+    /// are too uncertain to be compared with the first one.
+    fn back_at(&self, born: Option<&Special>, specials: &mut Vec<Special>) -> bool {
+        let back = born.and_then(|born| {
+            let again = |s: &Special| s.kind == born.kind && self.same(born, s);
+            specials.iter().position(again)
+        });
+        back.is_some_and(|back| {
+            specials.truncate(back);
+            true
+        })
     }
 
     /// Whether the step to `point` passes the first point of the branch.
