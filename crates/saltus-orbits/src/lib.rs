@@ -15,6 +15,7 @@ mod exponents;
 mod flow;
 mod follow;
 mod follower;
+mod instant;
 mod linear;
 mod locate;
 mod map;

@@ -2,6 +2,7 @@
 //! step.
 
 use crate::continuation::{Branch, End, Point};
+use crate::instant::at_instant;
 use crate::linear::{dot, minus, norm, scaled, unit};
 use crate::orbit::shortest_period;
 use crate::path::Path;
@@ -73,15 +74,14 @@ impl<F: Family + ?Sized> Path<'_, F> {
                     point
                 }
                 Err(obstacle) => match self.shorter(&branch.points, step, &obstacle) {
-                    Shorter::End => {
-                        // From the side with the switches no touch tells that a grazing is near.
-                        let Some((point, special)) = self.across(&branch.points, &obstacle) else {
-                            break obstacle;
-                        };
-                        branch.specials.push(special);
-                        step = self.onwards(last, &point);
-                        point
-                    }
+                    Shorter::End => match self.further(&branch.points, obstacle) {
+                        Ok((point, next, special)) => {
+                            branch.specials.extend(special);
+                            step = next;
+                            point
+                        }
+                        Err(end) => break end,
+                    },
                     Shorter::Step(shorter) => {
                         step = shorter;
                         continue;
@@ -130,16 +130,33 @@ impl<F: Family + ?Sized> Path<'_, F> {
         Ok((point, specials))
     }
 
-    /// The orbit with other switches across a grazing right ahead, if that may be the obstacle.
-    fn across(&self, points: &[Point], obstacle: &End) -> Option<(Point, Special)> {
-        let last = points.last()?;
-        let lost = matches!(obstacle, End::Failed(_) | End::StepTooSmall);
-        if !lost || points.len() == 1 {
-            return None;
+    /// Beyond an obstacle that stays with the smallest step, if it is the sampling instant or a grazing: the next
+    /// point, the step from there, and what lies in between.
+    fn further(
+        &self,
+        points: &[Point],
+        obstacle: End,
+    ) -> Result<(Point, f64, Option<Special>), End> {
+        let last = &points[points.len() - 1];
+        if !matches!(obstacle, End::Failed(_) | End::StepTooSmall) {
+            return Err(obstacle);
         }
-        let point = self.beyond(last, 0.0)?;
-        let special = self.gap(last, &point, points.len() - 1)?;
-        Some((point, special))
+        if let Some(point) = self.across_instant(last) {
+            return Ok((point, self.options.initial, None));
+        }
+        // From the side with the switches no touch tells that a grazing is near.
+        let beyond = self.beyond(last, 0.0).filter(|_| points.len() > 1);
+        if let Some(point) = beyond
+            && let Some(special) = self.gap(last, &point, points.len() - 1)
+        {
+            let step = self.onwards(last, &point);
+            return Ok((point, step, Some(special)));
+        }
+        Err(if at_instant(&last.orbit) {
+            End::SamplingInstant
+        } else {
+            obstacle
+        })
     }
 
     /// Whether a point is at an end of the range and the branch leads out.
