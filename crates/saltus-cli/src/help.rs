@@ -87,10 +87,15 @@ is recorded. plate.inertia = \"condensed\" is about a hundred times as fast as
 Layers (map.nc, over y and x, with units; NaN where there is no motion):
   period             of the attractor in forcing periods, 0 if not periodic
                      with a period up to 32
-  status             0 periodic, 1 not periodic, 2 undecided (still visibly on
-                     its way to or from a cycle when the time was up), 3 no
-                     model, 4 chattering, 5 not finite, 6 too many steps,
-                     7 ended otherwise
+  status             0 periodic, 1 quasi-periodic, 2 chaotic, 3 not periodic
+                     (map.exponent = 0 does not ask for more), 4 undecided (on
+                     its way when the time was up, or on a longer cycle, or its
+                     exponent too small to tell its sign), 5 no model,
+                     6 chattering, 7 not finite, 8 too many steps, 9 ended
+                     otherwise
+  exponent           largest Lyapunov exponent per forcing period, where it took
+                     one to say what the motion is
+  exponent_error     its standard error
   contact_ratio      part of the time on the floor (-)
   peak_reaction      largest plate reaction force (body weights)
   peak_acceleration  largest absolute vertical acceleration of the floor under

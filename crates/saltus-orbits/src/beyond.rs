@@ -4,7 +4,7 @@ use crate::continuation::Point;
 use crate::linear::{dot, norm};
 use crate::orbit::shortest_period;
 use crate::path::Path;
-use crate::shooting::Guess;
+use crate::shooting::{Guess, Shooting};
 use crate::special::JUMP;
 use crate::{Family, Shot, Special, SpecialKind, Touch, events};
 
@@ -70,20 +70,41 @@ impl<F: Family + ?Sized> Path<'_, F> {
     }
 
     /// The nearest orbit with other switches beyond a grazing that lies `ahead` of `last`, oriented away
-    /// from it. The branch may go on, or come back on the same side of the parameter.
+    /// from it. The branch may go on, or come back on the same side of the parameter. It had better lead
+    /// on: very near a square root derivatives are too large to be known well.
     pub(crate) fn beyond(&self, last: &Point, ahead: f64) -> Option<Point> {
         let grazing = last.orbit.guess().moved(&self.free, ahead, &last.spread);
         let onwards = if last.pace() < 0.0 { -1.0 } else { 1.0 };
         let range = self.range[1] - self.range[0];
-        let tries = OFFSETS
+        let offsets = OFFSETS
             .iter()
             .flat_map(|offset| [onwards * offset, -onwards * offset]);
-        tries
-            .filter_map(|offset| self.near(last, &grazing, offset * range))
-            .next()
+        let tries = offsets.flat_map(|offset| [(offset * range, true), (offset * range, false)]);
+        let mut nearest = None;
+        for (offset, keep_switches) in tries {
+            let Some(point) = self.near(last, &grazing, offset, keep_switches) else {
+                continue;
+            };
+            if self.next(&point, self.onwards(last, &point)).is_ok() {
+                return Some(point);
+            }
+            nearest.get_or_insert(point);
+        }
+        nearest
     }
 
-    fn near(&self, last: &Point, grazing: &Guess, offset: f64) -> Option<Point> {
+    /// The first step from a point beyond a grazing.
+    pub(crate) fn onwards(&self, last: &Point, beyond: &Point) -> f64 {
+        self.distance(last, beyond).max(self.options.smallest)
+    }
+
+    fn near(
+        &self,
+        last: &Point,
+        grazing: &Guess,
+        offset: f64,
+        keep_switches: bool,
+    ) -> Option<Point> {
         let index = self.free[0].index;
         let mut guess = grazing.clone();
         guess.parameters[index] += offset;
@@ -93,9 +114,14 @@ impl<F: Family + ?Sized> Path<'_, F> {
         }
         let reach = NEAR * (offset / (high - low)).abs().sqrt();
         let old = events::sequence(&last.orbit);
+        let shooting = Shooting {
+            keep_switches,
+            ..self.shooting()
+        };
+        let up = self.upwards();
         for _ in 0..=ITERATES {
-            let found = self.solve(&guess, &self.upwards(), &self.upwards());
-            if let Ok(point) = found {
+            let found = shooting.correct(&guess, std::slice::from_ref(&up));
+            if let Ok(point) = found.and_then(|pass| self.point(&pass, &up)) {
                 let way = self.apart(last, &point);
                 let new = !events::same(&old, &events::sequence(&point.orbit))
                     && shortest_period(&point.orbit.places) == point.orbit.period();

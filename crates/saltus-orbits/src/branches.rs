@@ -2,7 +2,7 @@
 
 use crate::continuation::{Along, Branch, ContinuationError, ContinuationOptions, End, Point};
 use crate::follow::Labels;
-use crate::linear::{minus, size};
+use crate::linear::{dot, minus, size};
 use crate::path::Path;
 use crate::{Family, Orbit, Special, SpecialKind};
 
@@ -10,6 +10,9 @@ use crate::{Family, Orbit, Special, SpecialKind};
 /// located to, and far less than what lies between different ones.
 const SAME_PARAMETER: f64 = 1e-7;
 const SAME_STATE: f64 = 1e-4;
+
+/// Two tangents at a special point with a larger cosine are those of one branch: they are known to far less.
+const SAME_WAY: f64 = 1.0 - 1e-6;
 
 /// Which branches are followed, and how.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,7 +66,7 @@ pub fn branches<F: Family + ?Sized>(
 ) -> Result<Vec<Limb>, ContinuationError> {
     let path = Path::new(family, start, along, &options.continuation)?;
     let mut labels = Labels::default();
-    let mut first = path.walk_both(path.seed(start, true)?, false, keep_going);
+    let mut first = path.walk_both(path.seed(start, true)?, None, keep_going);
     labels.name(&mut first);
     let mut limbs = vec![Limb {
         origin: None,
@@ -87,30 +90,36 @@ pub fn branches<F: Family + ?Sized>(
                 SpecialKind::Halving => SpecialKind::PeriodDoubling,
                 _ => SpecialKind::Halving,
             };
+            // A branch that crosses here may have been followed from elsewhere.
+            let crosses = |s: &&Special| {
+                let kinds = [&s.kind, &special.kind];
+                kinds.iter().all(|kind| **kind == SpecialKind::BranchPoint)
+                    && dot(&s.tangent, &special.tangent).abs() < SAME_WAY
+            };
             let all = limbs.iter().flat_map(|limb| &limb.branch.specials);
-            let mut twins = all.filter(|s| s.kind == twin);
-            if visited.iter().any(seen) || twins.any(seen) {
+            let mut followed = all.filter(|s| s.kind == twin || crosses(s));
+            if visited.iter().any(seen) || followed.any(seen) {
                 continue;
             }
             let (branch, doublings) = match special.kind {
                 SpecialKind::PeriodDoubling if depth < options.doublings => {
                     let birth = path.doubled(&special);
                     (
-                        birth.map(|seed| path.walk(seed, true, keep_going)),
+                        birth.map(|seed| path.walk(seed, Some(&special), keep_going)),
                         depth + 1,
                     )
                 }
                 SpecialKind::BranchPoint if options.crossings => {
                     let birth = path.crossed(&special);
                     (
-                        birth.map(|seed| path.walk_both(seed, true, keep_going)),
+                        birth.map(|seed| path.walk_both(seed, Some(&special), keep_going)),
                         depth,
                     )
                 }
                 SpecialKind::Halving if options.crossings => {
                     let mother = path.half(&special);
                     (
-                        mother.map(|seed| path.walk_both(seed, false, keep_going)),
+                        mother.map(|seed| path.walk_both(seed, None, keep_going)),
                         depth.saturating_sub(1),
                     )
                 }
@@ -134,7 +143,7 @@ pub fn branches<F: Family + ?Sized>(
 
 impl<F: Family + ?Sized> Path<'_, F> {
     /// Whether two special points are one, seen from two branches or at two phases of the orbit.
-    fn same(&self, a: &Special, b: &Special) -> bool {
+    pub(crate) fn same(&self, a: &Special, b: &Special) -> bool {
         let range = self.range[1] - self.range[0];
         let here = &a.orbit.places[0].x;
         let scale = size(here).max(1.0);

@@ -109,6 +109,8 @@ pub enum End {
     Halved,
     /// At a grazing beyond which no orbit was found near.
     Grazing,
+    /// Where a switch comes to the sampling instant and makes the sampled state jump, and no orbit was found beyond.
+    SamplingInstant,
     /// Where the map ends.
     NoMap(Lost),
     /// The corrector failed for the smallest step too.
@@ -130,6 +132,11 @@ impl std::fmt::Display for End {
             Self::Closed => write!(f, "closed curve: back at the start"),
             Self::Halved => write!(f, "meets the branch of half its period"),
             Self::Grazing => write!(f, "grazing, and no orbit found near beyond it"),
+            Self::SamplingInstant => write!(
+                f,
+                "a switch comes to the sampling instant, where the sampled state may jump, and no orbit was found \
+                 near beyond it; sampled at another phase of the drive the branch may go on"
+            ),
             Self::NoMap(reason) => write!(f, "no map beyond: {reason}"),
             Self::Failed(reason) => write!(f, "lost: {reason}"),
             Self::StepTooSmall => write!(f, "bends too much for the smallest step"),
@@ -203,6 +210,16 @@ pub enum ContinuationError {
          LP, PD, NS or GR"
     )]
     NoCurve {
+        /// Kind of the special point.
+        short: &'static str,
+    },
+    /// A curve that cannot be begun.
+    #[error(
+        "the curve of this {short} cannot be begun: either what makes it one cannot be told from its orbit, such \
+         as the touch of a grazing or the pair of multipliers, or it does not change with the parameters, or no \
+         orbits were found beside it"
+    )]
+    NoDirection {
         /// Kind of the special point.
         short: &'static str,
     },

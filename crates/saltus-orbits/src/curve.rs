@@ -75,11 +75,10 @@ pub fn follow_curve<F: Family + ?Sized>(
         options,
         kind: start.kind.clone(),
     };
-    let no_curve = ContinuationError::NoCurve {
-        short: start.kind.short(),
-    };
-    if over[0].parameter == over[1].parameter {
-        return Err(no_curve);
+    let short = start.kind.short();
+    let has_curve = matches!(short, "LP" | "PD" | "NS" | "GR");
+    if over[0].parameter == over[1].parameter || !has_curve {
+        return Err(ContinuationError::NoCurve { short });
     }
     let pass = surface.shooting().pass(&start.orbit.guess());
     let pass = pass.map_err(|reason| NotFound::Lost {
@@ -88,10 +87,8 @@ pub fn follow_curve<F: Family + ?Sized>(
         places: start.orbit.places.clone(),
     })?;
     let spot = surface.spot(pass, critical_pair(&start.orbit))?;
-    if spot.psi.is_none() {
-        return Err(no_curve);
-    }
-    let first = surface.station(spot, None).ok_or(no_curve)?;
+    let first = surface.station(spot, None);
+    let first = first.ok_or(ContinuationError::NoDirection { short })?;
     let forth = surface.walk(&first, keep_going);
     if matches!(forth.ends[1], End::Closed | End::Interrupted) {
         return Ok(forth);
@@ -113,16 +110,16 @@ pub fn follow_curve<F: Family + ?Sized>(
 impl<F: Family + ?Sized> Surface<'_, F> {
     /// The point of the curve `step` ahead, and the Newton steps it took.
     fn next(&self, from: &Station, step: f64) -> Result<(Spot, usize), End> {
-        let at = |b: f64| {
-            self.lifted(&from.spot, &from.frame, [step, b])
-                .map_err(End::from)
-        };
         let mut known: Option<(f64, f64)> = None;
         let (mut b, mut slope, mut effort) = (0.0, from.slope, 0);
         for _ in 0..ROUNDS {
-            let spot = at(b)?;
-            effort += spot.orbit.iterations;
-            let Some(psi) = spot.psi else {
+            let spot = match self.lifted(&from.spot, &from.frame, [step, b]) {
+                // Beyond a square root there may be no orbit at all.
+                Err(reason) if reason.is_stop() || !self.has_sides() => return Err(reason.into()),
+                spot => spot.ok(),
+            };
+            effort += spot.as_ref().map_or(0, |spot| spot.orbit.iterations);
+            let Some((psi, spot)) = spot.and_then(|spot| Some((spot.psi?, spot))) else {
                 // Beyond grazing: back to where the guard still had a value, or towards where it should.
                 b = match known {
                     Some((known, _)) => f64::midpoint(known, b),
@@ -148,11 +145,6 @@ impl<F: Family + ?Sized> Surface<'_, F> {
             }
         }
         Err(End::StepTooSmall)
-    }
-
-    /// Whether psi exists to one side of the curve only.
-    fn has_sides(&self) -> bool {
-        matches!(self.kind, SpecialKind::Grazing { .. })
     }
 
     /// The first end of a range on the way from one orbit to another: which parameter, and its value there.

@@ -1,79 +1,114 @@
-//! A family whose derivative is taken by differences: for maps that have none of their own, and as a second
-//! opinion on those that do.
+//! Derivatives of an image by a parameter: differences, which look closer where the map has a corner.
+//!
+//! At a grazing the map changes from one piece to another, and to the side with an impact it is a square root.
+//! Differences that reach across a corner say nothing; those that stay on the piece of the image, and no longer
+//! change when they reach less far, do.
 
-use crate::{Family, Image, Lost, Matrix, Place, Shot};
+use crate::events::switches;
+use crate::linear::{minus, norm, plus, scaled, size};
+use crate::shooting::{Free, Shooting};
+use crate::{Family, Image, Lost, Shot};
 
-/// Any family with its derivative by central differences of step h.
-///
-/// An image with derivative costs 2 n images. Crossings and touches on the way are not told. The error is some
-/// h^2 of the third derivative, and the noise of the images over h.
-#[derive(Clone, Copy, Debug)]
-pub struct Differences<'a, F: ?Sized> {
-    family: &'a F,
-    step: f64,
+/// Differences over this part of a parameter's unit: the cube root of rounding, where the error of central
+/// differences is smallest.
+pub(crate) const DIFFERENCE: f64 = 6e-6;
+
+/// Slopes that differ by more than this part, or by this where they are small, tell that there may be a corner:
+/// in a smooth map they differ by some 1e-5, and less than this does not hinder Newton's method.
+const CORNER: f64 = 1e-2;
+
+/// Each closer look reaches so much less far, and so many looks are taken: the last is at 6e-12, for slopes of
+/// 1e5, of which rounding leaves four digits.
+const CLOSER: f64 = 1.0 / 32.0;
+const LOOKS: i32 = 5;
+
+/// `parameters` with one of them moved by a part of its unit.
+pub(crate) fn moved(parameters: &[f64], free: &Free, part: f64) -> Vec<f64> {
+    let mut moved = parameters.to_vec();
+    moved[free.index] += part * free.unit;
+    moved
 }
 
-impl<'a, F: Family + ?Sized> Differences<'a, F> {
-    /// Of `family`, with differences of `step` in each state.
-    pub fn new(family: &'a F, step: f64) -> Self {
-        Self { family, step }
-    }
-
-    /// The start, then each of its states moved up and down.
-    fn around(&self, start: &Place) -> Vec<Place> {
-        let moved = |i: usize, by: f64| {
-            let mut place = start.clone();
-            place.x[i] += by;
-            place
-        };
-        let sides = (0..start.x.len()).flat_map(|i| [moved(i, self.step), moved(i, -self.step)]);
-        std::iter::once(start.clone()).chain(sides).collect()
-    }
-
-    fn assemble(&self, images: Vec<Result<Image, Lost>>) -> Result<Image, Lost> {
-        let mut images = images.into_iter().collect::<Result<Vec<_>, _>>()?;
-        let sides = images.split_off(1);
-        let mut image = images.remove(0);
-        let n = image.place.x.len();
-        image.derivative = Some(Matrix::from_fn(n, n, |row, column| {
-            let [ahead, behind] = [0, 1].map(|side| sides[2 * column + side].place.x[row]);
-            (ahead - behind) / (2.0 * self.step)
-        }));
-        Ok(image)
-    }
-}
-
-impl<F: Family + ?Sized> Family for Differences<'_, F> {
-    fn dimension(&self) -> usize {
-        self.family.dimension()
-    }
-
-    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
-        let starts = shots.iter().map(|shot| match shot.derivative {
-            true => self.around(shot.start),
-            false => vec![shot.start.clone()],
-        });
-        let starts: Vec<Vec<Place>> = starts.collect();
-        let plain = |(shot, start)| {
-            let shot: &Shot<'_> = shot;
-            Shot {
-                derivative: false,
-                start,
-                ..*shot
+impl<F: Family + ?Sized> Shooting<'_, F> {
+    /// dP per unit of a parameter, from the image of a shot and those of the shots below and above.
+    pub(crate) fn slope(
+        &self,
+        shot: &Shot<'_>,
+        image: &Image,
+        free: &Free,
+        both: &[Result<Image, Lost>; 2],
+    ) -> Result<Vec<f64>, Lost> {
+        let plain = difference(image, both)?;
+        let sides = both.each_ref().map(|side| side.as_ref().ok());
+        let corner = match sides {
+            [Some(below), Some(above)] => {
+                let from = |side: &Image| minus(&side.place.x, &image.place.x);
+                let slopes = [(below, -DIFFERENCE), (above, DIFFERENCE)];
+                let [left, right] = slopes.map(|(side, part)| scaled(&from(side), 1.0 / part));
+                !agree(&left, &right)
             }
+            _ => false,
         };
-        let pairs = shots.iter().zip(&starts);
-        let all: Vec<Shot<'_>> = pairs
-            .flat_map(|(shot, starts)| starts.iter().map(move |start| plain((shot, start))))
+        let closer = corner.then(|| self.beside_corner(shot, image, free));
+        Ok(closer.flatten().unwrap_or(plain))
+    }
+
+    /// The slope on the piece of the map that an image lies on, if it can be told.
+    fn beside_corner(&self, shot: &Shot<'_>, image: &Image, free: &Free) -> Option<Vec<f64>> {
+        let parts = (0..LOOKS).map(|look| DIFFERENCE * CLOSER.powi(look));
+        let beside: Vec<Vec<f64>> = parts
+            .flat_map(|part| [-part, part])
+            .map(|part| moved(shot.parameters, free, part))
             .collect();
-        let mut images = self.family.images(&all).into_iter();
-        let answer = |(shot, starts): (&Shot<'_>, &Vec<Place>)| {
-            let mut mine: Vec<_> = images.by_ref().take(starts.len()).collect();
-            match shot.derivative {
-                true => self.assemble(mine),
-                false => mine.pop().unwrap_or(Err(Lost::Interrupted)),
-            }
+        // Only shots with a derivative tell their switches.
+        let shots = beside.iter().map(|parameters| Shot {
+            parameters,
+            derivative: true,
+            ..*shot
+        });
+        let images = self.family.images(&shots.collect::<Vec<_>>());
+        let here = switches(&image.crossings);
+        let slope = |(side, parameters): (&Result<Image, Lost>, &Vec<f64>)| {
+            let side = side.as_ref().ok()?;
+            // What is left of a small part after rounding.
+            let part = (parameters[free.index] - shot.parameters[free.index]) / free.unit;
+            let slope = scaled(&minus(&side.place.x, &image.place.x), 1.0 / part);
+            (switches(&side.crossings) == here && norm(&slope).is_finite()).then_some(slope)
         };
-        shots.iter().zip(&starts).map(answer).collect()
+        let slopes: Vec<Option<Vec<f64>>> = images.iter().zip(&beside).map(slope).collect();
+        let looks: Vec<&[Option<Vec<f64>>]> = slopes.chunks_exact(2).collect();
+        let steady = |pair: &[&[Option<Vec<f64>>]]| {
+            if let [Some(below), Some(above)] = pair[0]
+                && agree(below, above)
+            {
+                return Some(scaled(&plus(below, 1.0, above), 0.5));
+            }
+            let mut sides = pair[0].iter().zip(pair[1]);
+            sides.find_map(|sides| match sides {
+                (Some(far), Some(near)) if agree(far, near) => Some(near.clone()),
+                _ => None,
+            })
+        };
+        looks.windows(2).find_map(steady)
     }
+}
+
+fn agree(a: &[f64], b: &[f64]) -> bool {
+    size(&minus(a, b)) <= CORNER * size(a).min(size(b)).max(1.0)
+}
+
+/// Central, or to one side where the map ends.
+fn difference(image: &Image, both: &[Result<Image, Lost>; 2]) -> Result<Vec<f64>, Lost> {
+    let (below, above, width) = match both {
+        [Err(Lost::Interrupted), _] | [_, Err(Lost::Interrupted)] => return Err(Lost::Interrupted),
+        [Ok(below), Ok(above)] => (below, above, 2.0),
+        [Ok(below), Err(_)] => (below, image, 1.0),
+        [Err(_), Ok(above)] => (image, above, 1.0),
+        [Err(reason), Err(_)] => return Err(reason.clone()),
+    };
+    let change = minus(&above.place.x, &below.place.x);
+    if !norm(&change).is_finite() {
+        return Err(Lost::Ended("the image is not finite".into()));
+    }
+    Ok(scaled(&change, 1.0 / (width * DIFFERENCE)))
 }

@@ -1,6 +1,6 @@
 //! The sequence of switches along an orbit, and how near it comes to another one.
 
-use crate::{Orbit, Touch};
+use crate::{Crossing, Orbit, Touch};
 
 /// One switch: unit, mode left, mode entered.
 pub(crate) type Switch = (usize, usize, usize);
@@ -10,9 +10,14 @@ pub(crate) fn sequence(orbit: &Orbit) -> Vec<Switch> {
     orbit
         .crossings
         .iter()
-        .flatten()
-        .map(|crossing| (crossing.unit, crossing.from, crossing.to))
+        .flat_map(|all| switches(all))
         .collect()
+}
+
+/// The switches of one iterate.
+pub(crate) fn switches(crossings: &[Crossing]) -> Vec<Switch> {
+    let switch = |crossing: &Crossing| (crossing.unit, crossing.from, crossing.to);
+    crossings.iter().map(switch).collect()
 }
 
 /// Whether two sequences are the same up to where the period begins: a switch that wanders through the

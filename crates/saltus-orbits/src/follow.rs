@@ -20,7 +20,7 @@ pub fn follow<F: Family + ?Sized>(
     keep_going: &mut dyn FnMut(&Point) -> bool,
 ) -> Result<Branch, ContinuationError> {
     let path = Path::new(family, start, along, options)?;
-    let mut branch = path.walk(path.seed(start, growing)?, false, keep_going);
+    let mut branch = path.walk(path.seed(start, growing)?, None, keep_going);
     Labels::default().name(&mut branch);
     Ok(branch)
 }
@@ -38,7 +38,7 @@ pub fn follow_both<F: Family + ?Sized>(
     keep_going: &mut dyn FnMut(&Point) -> bool,
 ) -> Result<Branch, ContinuationError> {
     let path = Path::new(family, start, along, options)?;
-    let mut branch = path.walk_both(path.seed(start, true)?, false, keep_going);
+    let mut branch = path.walk_both(path.seed(start, true)?, None, keep_going);
     Labels::default().name(&mut branch);
     Ok(branch)
 }
@@ -93,7 +93,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
     pub(crate) fn walk_both(
         &self,
         seed: Point,
-        born: bool,
+        born: Option<&Special>,
         keep_going: &mut dyn FnMut(&Point) -> bool,
     ) -> Branch {
         let forth = self.walk(seed.clone(), born, keep_going);

@@ -2,7 +2,7 @@
 
 use crate::continuation::Point;
 use crate::path::Path;
-use crate::special::{JUMP, Special, Test, changes};
+use crate::special::{JUMP, Special, Test, changes, pair_passes};
 use crate::touching::switches;
 use crate::{Family, NotFound, linear};
 
@@ -27,10 +27,17 @@ impl<F: Family + ?Sized> Path<'_, F> {
         near: usize,
     ) -> Result<Vec<Special>, NotFound> {
         let (mut found, mut from) = (Vec::new(), a.clone());
-        while found.len() < MOST && !changes(&from, b).is_empty() {
+        while found.len() < MOST && !changes(&from, b, pair_passes(&from, b)).is_empty() {
             let (special, next) = self.first(from, b.clone(), near)?;
             found.extend(special);
             from = next;
+        }
+        // Next to a special point rounding decides on which side of the circle its multiplier is.
+        if let Some(first) = found.first_mut() {
+            first.outside[0] = a.outside;
+        }
+        if let Some(last) = found.last_mut() {
+            last.outside[1] = b.outside;
         }
         Ok(found)
     }
@@ -42,9 +49,9 @@ impl<F: Family + ?Sized> Path<'_, F> {
         mut b: Point,
         near: usize,
     ) -> Result<(Option<Special>, Point), NotFound> {
-        let mut aim = Aim::default();
+        let (mut aim, pairs) = (Aim::default(), pair_passes(&a, &b));
         for round in 0..ROUNDS {
-            let tests = changes(&a, &b);
+            let tests = changes(&a, &b, pairs);
             let values = |test: Test| Some([test.value(&a)?, test.value(&b)?]);
             let zero = match tests[..] {
                 [test] => values(test).is_some_and(|v| v[0].abs().min(v[1].abs()) <= ZERO),
@@ -80,7 +87,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
                     }
                 },
             };
-            if changes(&a, &middle).is_empty() {
+            if changes(&a, &middle, pairs).is_empty() {
                 a = middle;
                 aim.moved(0);
             } else {
@@ -88,19 +95,19 @@ impl<F: Family + ?Sized> Path<'_, F> {
                 aim.moved(1);
             }
         }
-        Ok((self.special(&a, &b, near), b))
+        Ok((self.special(&a, &b, pairs, near), b))
     }
 
     /// The grazing between the last point of a branch and the first one beyond, with none in between.
     pub(crate) fn gap(&self, last: &Point, beyond: &Point, near: usize) -> Option<Special> {
         let (mut a, mut b) = (last.clone(), beyond.clone());
         self.approach(&mut a, &mut b);
-        self.special(&a, &b, near)
+        self.special(&a, &b, false, near)
     }
 
     /// The special point between two points that are next to each other.
-    fn special(&self, a: &Point, b: &Point, near: usize) -> Option<Special> {
-        let test = *changes(a, b).first()?;
+    fn special(&self, a: &Point, b: &Point, pairs: bool, near: usize) -> Option<Special> {
+        let test = *changes(a, b, pairs).first()?;
         let best = match (test.value(a), test.value(b)) {
             (Some(before), Some(behind)) if behind.abs() < before.abs() => b,
             // A grazing orbit is the one without the additional switches.

@@ -209,6 +209,7 @@ pub fn find_orbit<F: Family + ?Sized>(
         family,
         free: &[],
         newton: options,
+        keep_switches: false,
     };
     let solve = |places: &[Place]| {
         let guess = Guess {

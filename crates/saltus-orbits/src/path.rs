@@ -66,6 +66,7 @@ impl<'a, F: Family + ?Sized> Path<'a, F> {
             family: self.family,
             free: &self.free,
             newton: &self.options.newton,
+            keep_switches: false,
         }
     }
 
@@ -96,13 +97,11 @@ impl<'a, F: Family + ?Sized> Path<'a, F> {
         normal: &[f64],
         ahead: &[f64],
     ) -> Result<Point, NotFound> {
-        let pass = self
-            .shooting()
-            .correct(guess, std::slice::from_ref(&normal.to_vec()))?;
+        let pass = self.shooting().correct(guess, &[normal.to_vec()])?;
         self.point(&pass, ahead)
     }
 
-    fn point(&self, pass: &Pass, ahead: &[f64]) -> Result<Point, NotFound> {
+    pub(crate) fn point(&self, pass: &Pass, ahead: &[f64]) -> Result<Point, NotFound> {
         let orbit = Orbit::of(pass)?;
         let singular = || NotFound::Singular {
             residual: pass.residual,

@@ -11,12 +11,10 @@
 //! so one pass around the orbit leaves n equations for d_1 and dp, whatever the number of segments. Inside
 //! a segment the gaps are zero. Shots of all segments, and those for C by differences, are asked together.
 
-use crate::linear::{self, minus, norm, plus, size, times};
+use crate::differences::{DIFFERENCE, moved};
+use crate::events::switches;
+use crate::linear::{self, minus, plus, size, times};
 use crate::{Family, Image, Lost, Matrix, NewtonOptions, NotFound, Place, Shot};
-
-/// Differences over this part of a parameter's unit: the cube root of rounding, where the error of central
-/// differences is smallest.
-const DIFFERENCE: f64 = 6e-6;
 
 /// A step is cut in halves at most so often.
 const HALVINGS: usize = 6;
@@ -38,6 +36,9 @@ pub(crate) struct Shooting<'a, F: ?Sized> {
     pub(crate) family: &'a F,
     pub(crate) free: &'a [Free],
     pub(crate) newton: &'a NewtonOptions,
+    /// Whether steps that change the switches are refused. With a square root in the map steps from the side
+    /// with an impact end beyond it, on the other side, where there may be no orbit.
+    pub(crate) keep_switches: bool,
 }
 
 /// An orbit to begin with.
@@ -174,6 +175,11 @@ impl Pass {
         (0..n).all(|i| self.images[i].place.modes == self.places[(i + 1) % n].modes)
     }
 
+    fn same_switches(&self, other: &Self) -> bool {
+        let mut both = self.images.iter().zip(&other.images);
+        both.all(|(a, b)| switches(&a.crossings) == switches(&b.crossings))
+    }
+
     /// This orbit as a guess, with modes from the images: modes at the section follow from the motion.
     fn guess(&self) -> Guess {
         let n = self.places.len();
@@ -236,6 +242,7 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
         let mut reason = None;
         for _ in 0..=HALVINGS {
             match self.pass(&pass.guess().moved(self.free, part, &step)) {
+                Ok(next) if self.keep_switches && !next.same_switches(pass) => reason = None,
                 // New modes are another set of equations: their gaps need not be smaller at once.
                 Ok(next) if next.residual < pass.residual || !next.modes_agree() => {
                     return Ok(Some(next));
@@ -293,16 +300,8 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
         places: &[Place],
         which: &[usize],
     ) -> Result<Vec<(Image, Columns)>, Lost> {
-        let offset = |free: &Free, sign: f64| {
-            let mut moved = parameters.to_vec();
-            moved[free.index] += sign * DIFFERENCE * free.unit;
-            moved
-        };
-        let sides: Vec<Vec<f64>> = self
-            .free
-            .iter()
-            .flat_map(|free| [offset(free, -1.0), offset(free, 1.0)])
-            .collect();
+        let beside = |free| [-DIFFERENCE, DIFFERENCE].map(|part| moved(parameters, free, part));
+        let sides: Vec<Vec<f64>> = self.free.iter().flat_map(beside).collect();
         let shots: Vec<Shot<'_>> = which
             .iter()
             .flat_map(|&i| {
@@ -321,10 +320,15 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
         for &i in which {
             let image = checked(answers.next(), places[i].x.len())?;
             let mut columns = Vec::with_capacity(self.free.len());
-            for _ in self.free {
-                let [below, above] =
+            let shot = Shot {
+                parameters,
+                start: &places[i],
+                derivative: true,
+            };
+            for free in self.free {
+                let both =
                     [answers.next(), answers.next()].map(|answer| answer.unwrap_or_else(missing));
-                columns.push(difference(&image, &below, &above)?);
+                columns.push(self.slope(&shot, &image, free, &both)?);
             }
             all.push((image, columns));
         }
@@ -359,27 +363,4 @@ fn checked(answer: Option<Result<Image, Lost>>, n: usize) -> Result<Image, Lost>
             "no derivative, although it was asked for".into(),
         )),
     }
-}
-
-/// dP per unit of a parameter: central, or to one side where the map ends.
-fn difference(
-    image: &Image,
-    below: &Result<Image, Lost>,
-    above: &Result<Image, Lost>,
-) -> Result<Vec<f64>, Lost> {
-    let (below, above, width) = match (below, above) {
-        (Err(Lost::Interrupted), _) | (_, Err(Lost::Interrupted)) => return Err(Lost::Interrupted),
-        (Ok(below), Ok(above)) => (below, above, 2.0),
-        (Ok(below), Err(_)) => (below, image, 1.0),
-        (Err(_), Ok(above)) => (image, above, 1.0),
-        (Err(reason), Err(_)) => return Err(reason.clone()),
-    };
-    let change = minus(&above.place.x, &below.place.x);
-    if !norm(&change).is_finite() {
-        return Err(Lost::Ended("the image is not finite".into()));
-    }
-    Ok(change
-        .iter()
-        .map(|change| change / (width * DIFFERENCE))
-        .collect())
 }

@@ -79,8 +79,23 @@ pub(crate) enum Test {
     NeimarkSacker,
 }
 
-/// What changes between two points.
-pub(crate) fn changes(a: &Point, b: &Point) -> Vec<Test> {
+/// Pairs this near to the unit circle may be on it: many times the rounding of multipliers. Without damping all
+/// pairs are, and none of them passes it.
+const ON_CIRCLE: f64 = 1e-8;
+
+/// Whether a pair of multipliers passes the unit circle between two points beyond doubt: more of them lie clearly
+/// outside at one than lie not clearly inside at the other.
+pub(crate) fn pair_passes(a: &Point, b: &Point) -> bool {
+    let beyond = |point: &Point, radius: f64| {
+        let all = point.orbit.multipliers.iter();
+        all.filter(|mu| mu.modulus() > radius).count()
+    };
+    let gains = |a, b| beyond(b, 1.0 + ON_CIRCLE) >= beyond(a, 1.0 - ON_CIRCLE) + 2;
+    gains(a, b) || gains(b, a)
+}
+
+/// What changes between two points; pairs of multipliers are looked at if `pairs`.
+pub(crate) fn changes(a: &Point, b: &Point, pairs: bool) -> Vec<Test> {
     let flips = |a: &Point| real(&a.orbit).filter(|mu| *mu < -1.0).count();
     let events = !events::same(&events::sequence(&a.orbit), &events::sequence(&b.orbit));
     let mut all = Vec::new();
@@ -94,8 +109,7 @@ pub(crate) fn changes(a: &Point, b: &Point) -> Vec<Test> {
     put(Test::PeriodDoubling, flips(a) % 2 != flips(b) % 2);
     put(Test::Fold, (a.pace() < 0.0) != (b.pace() < 0.0));
     // The others take one multiplier each through the circle.
-    let pairs = a.outside.abs_diff(b.outside) >= 2 + all.len();
-    if pairs {
+    if pairs && a.outside.abs_diff(b.outside) >= 2 + all.len() {
         all.push(Test::NeimarkSacker);
     }
     all

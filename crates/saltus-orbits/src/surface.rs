@@ -56,6 +56,7 @@ impl<F: Family + ?Sized> Surface<'_, F> {
             family: self.family,
             free: &self.free,
             newton: &self.options.newton,
+            keep_switches: false,
         }
     }
 
@@ -98,7 +99,18 @@ impl<F: Family + ?Sized> Surface<'_, F> {
             places: base.orbit.places.clone(),
         })?;
         let guess = base.orbit.guess().moved(&self.free, 1.0, &change);
-        self.spot(self.shooting().correct(&guess, along)?, base.pair)
+        let mut spot = self.spot(self.shooting().correct(&guess, along)?, base.pair)?;
+        let [here, there] = [&base.orbit, &spot.orbit].map(events::sequence);
+        // With other switches it is another guard, or another of its minima, that is nearest.
+        if self.has_sides() && !events::same(&here, &there) {
+            spot.psi = None;
+        }
+        Ok(spot)
+    }
+
+    /// Whether psi exists to one side of the curve only.
+    pub(crate) fn has_sides(&self) -> bool {
+        matches!(self.kind, SpecialKind::Grazing { .. })
     }
 
     /// The frame at a point of the curve, oriented along `ahead`.

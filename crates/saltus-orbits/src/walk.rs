@@ -2,6 +2,7 @@
 //! step.
 
 use crate::continuation::{Branch, End, Point};
+use crate::instant::at_instant;
 use crate::linear::{dot, minus, norm, scaled, unit};
 use crate::orbit::shortest_period;
 use crate::path::Path;
@@ -35,11 +36,11 @@ const SAME: f64 = 1e-6;
 
 impl<F: Family + ?Sized> Path<'_, F> {
     /// A branch from a point along its tangent. A branch is `born` at a special point of another one, which
-    /// is none of its own.
+    /// is none of its own; where it comes back there it is closed.
     pub(crate) fn walk(
         &self,
         seed: Point,
-        born: bool,
+        born: Option<&Special>,
         keep_going: &mut dyn FnMut(&Point) -> bool,
     ) -> Branch {
         let mut go_on = keep_going(&seed);
@@ -60,7 +61,8 @@ impl<F: Family + ?Sized> Path<'_, F> {
             if self.leaves(last) {
                 break End::RangeEnd;
             }
-            let point = match self.seen(&branch.points, born, step) {
+            let mut closed = false;
+            let point = match self.seen(&branch.points, born.is_some(), step) {
                 Ok((point, specials)) => {
                     step = self.next_step(last, &point, step);
                     branch.specials.extend(specials);
@@ -68,18 +70,18 @@ impl<F: Family + ?Sized> Path<'_, F> {
                     if branch.specials.last().is_some_and(meets) {
                         break End::Halved;
                     }
+                    closed = self.back_at(born, &mut branch.specials);
                     point
                 }
                 Err(obstacle) => match self.shorter(&branch.points, step, &obstacle) {
-                    Shorter::End => {
-                        // From the side with the switches no touch tells that a grazing is near.
-                        let Some((point, special)) = self.across(&branch.points, &obstacle) else {
-                            break obstacle;
-                        };
-                        branch.specials.push(special);
-                        step = self.distance(last, &point).max(self.options.smallest);
-                        point
-                    }
+                    Shorter::End => match self.further(&branch.points, obstacle) {
+                        Ok((point, next, special)) => {
+                            branch.specials.extend(special);
+                            step = next;
+                            point
+                        }
+                        Err(end) => break end,
+                    },
                     Shorter::Step(shorter) => {
                         step = shorter;
                         continue;
@@ -91,12 +93,12 @@ impl<F: Family + ?Sized> Path<'_, F> {
                         let Some(point) = behind else {
                             break End::Grazing;
                         };
-                        step = self.distance(last, &point).max(self.options.smallest);
+                        step = self.onwards(last, &point);
                         point
                     }
                 },
             };
-            let closed = self.closed(&branch.points, &point);
+            closed = closed || self.closed(&branch.points, &point);
             go_on = keep_going(&point);
             branch.points.push(point);
             if closed {
@@ -128,16 +130,33 @@ impl<F: Family + ?Sized> Path<'_, F> {
         Ok((point, specials))
     }
 
-    /// The orbit with other switches across a grazing right ahead, if that may be the obstacle.
-    fn across(&self, points: &[Point], obstacle: &End) -> Option<(Point, Special)> {
-        let last = points.last()?;
-        let lost = matches!(obstacle, End::Failed(_) | End::StepTooSmall);
-        if !lost || points.len() == 1 {
-            return None;
+    /// Beyond an obstacle that stays with the smallest step, if it is the sampling instant or a grazing: the next
+    /// point, the step from there, and what lies in between.
+    fn further(
+        &self,
+        points: &[Point],
+        obstacle: End,
+    ) -> Result<(Point, f64, Option<Special>), End> {
+        let last = &points[points.len() - 1];
+        if !matches!(obstacle, End::Failed(_) | End::StepTooSmall) {
+            return Err(obstacle);
         }
-        let point = self.beyond(last, 0.0)?;
-        let special = self.gap(last, &point, points.len() - 1)?;
-        Some((point, special))
+        if let Some(point) = self.across_instant(last) {
+            return Ok((point, self.options.initial, None));
+        }
+        // From the side with the switches no touch tells that a grazing is near.
+        let beyond = self.beyond(last, 0.0).filter(|_| points.len() > 1);
+        if let Some(point) = beyond
+            && let Some(special) = self.gap(last, &point, points.len() - 1)
+        {
+            let step = self.onwards(last, &point);
+            return Ok((point, step, Some(special)));
+        }
+        Err(if at_instant(&last.orbit) {
+            End::SamplingInstant
+        } else {
+            obstacle
+        })
     }
 
     /// Whether a point is at an end of the range and the branch leads out.
@@ -152,7 +171,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
     }
 
     /// The point `step` ahead, or that at the end of the range before it.
-    fn next(&self, last: &Point, step: f64) -> Result<Point, End> {
+    pub(crate) fn next(&self, last: &Point, step: f64) -> Result<Point, End> {
         let ahead = last.parameter + step * last.pace() * self.free[0].unit;
         let mut point = if self.inside(ahead) == ahead {
             let guess = last.orbit.guess().moved(&self.free, step, &last.spread);
@@ -218,6 +237,19 @@ impl<F: Family + ?Sized> Path<'_, F> {
             _ if step / 2.0 < self.options.smallest => Shorter::End,
             _ => Shorter::Step(step / 2.0),
         }
+    }
+
+    /// Whether the last special points are those from the birth of a branch on, which are dropped. There the orbits
+    /// are too uncertain to be compared with the first one.
+    fn back_at(&self, born: Option<&Special>, specials: &mut Vec<Special>) -> bool {
+        let back = born.and_then(|born| {
+            let again = |s: &Special| s.kind == born.kind && self.same(born, s);
+            specials.iter().position(again)
+        });
+        back.is_some_and(|back| {
+            specials.truncate(back);
+            true
+        })
     }
 
     /// Whether the step to `point` passes the first point of the branch.

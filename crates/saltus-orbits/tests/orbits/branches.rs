@@ -282,6 +282,28 @@ fn the_other_branch_of_a_pitchfork_is_followed_both_ways_and_once() {
 }
 
 #[test]
+fn a_bubble_between_two_branch_points_is_followed_once() {
+    // x^2 + p^2 = 0.1 crosses x = 0 twice.
+    let map = Smooth::new(|p, [x]| {
+        let growth = 0.1 - p[0] * p[0] - x * x;
+        ([x + x * growth], [[1.0 + growth - 2.0 * x * x]])
+    });
+    let start = orbit(&map, &[0.0], &[&[0.0]]);
+    let options = BranchesOptions::default();
+    let all = branches(&map, &start, &along(0, -0.6, 0.6), &options, &mut |_| true).unwrap();
+    let root = 0.1_f64.sqrt();
+    assert_specials(&all[0].branch, &[("BP", -root), ("BP", root)]);
+    assert_eq!(all.len(), 2);
+    assert_eq!(all[1].branch.ends[1], End::Closed);
+    let found = summary(&all[1].branch);
+    // On the side of the bubble the branch point is an extremum, found less well.
+    assert!(
+        found.len() == 1 && (found[0].1 - root).abs() < 1e-7,
+        "{found:?}"
+    );
+}
+
+#[test]
 fn a_bubble_of_period_two_is_followed_once() {
     let map = Smooth::new(|p, [x]| ([0.85 - p[0] * p[0] - x * x], [[-2.0 * x]]));
     let start = orbit(&map, &[0.4], &[&[0.45]]);

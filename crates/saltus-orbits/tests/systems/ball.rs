@@ -74,7 +74,6 @@ fn a_ball_that_bounces_once_a_period_folds_and_flips_where_formulas_say() {
 }
 
 #[test]
-#[ignore = "a jump at the sampling instant tears the branch: it ends as one that bends too much"]
 fn a_bounce_may_wander_through_the_sampling_instant() {
     // The bounce is at t = 0 for A = 0.7.
     let phase = PI - (speed(0.8) / 0.7).asin();

@@ -129,7 +129,6 @@ fn symmetry_is_broken_and_the_period_doubled_where_a_runge_kutta_method_says() {
 }
 
 #[test]
-#[ignore = "it is followed from both of its ends, and around and around: its start is not recognised"]
 fn a_bubble_between_two_losses_of_symmetry_is_followed_once() {
     let found = limbs(1.0, along(0, 0.5, 14.0));
     let kinds: Vec<_> = found.iter().map(|limb| kinds(&limb.branch)).collect();

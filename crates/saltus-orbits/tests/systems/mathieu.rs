@@ -95,7 +95,6 @@ fn rest_loses_and_regains_stability_at_the_eigenvalues_of_hills_matrix() {
 }
 
 #[test]
-#[ignore = "rounding of pairs on the unit circle is taken for Neimark-Sacker points"]
 fn rest_without_damping_has_no_neimark_sacker_points() {
     let map = map(2, |p: &[f64]| mathieu(0.0, 5.0, p[0]));
     let start = orbit(&map, &[0.0], place(&[], &[0.0, 0.0]));
