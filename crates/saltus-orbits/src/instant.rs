@@ -10,8 +10,8 @@ use crate::{Family, Orbit, Place, Shot, events};
 /// within the smallest step of it.
 const AT_INSTANT: f64 = 1e-3;
 
-/// How far a place is moved to make its switch pass the sampling instant, and the part of that by which the
-/// parameter is moved: with less the new orbit is surely on the side where it begins.
+/// How far a place is moved to make its switch pass the sampling instant, and how much less the orbit is moved
+/// along the branch: the place decides on which side the motion begins.
 const OFFSETS: [f64; 5] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
 const AHEAD: f64 = 0.1;
 
