@@ -155,7 +155,12 @@ impl<'a> Panel<'a> {
         let main = self.or_stop(found)?;
         for orbit in main.into_iter().chain(self.others(&family, &attractors)?) {
             if !self.is_known(&family, &limbs, &orbit) {
-                let more = self.follow(&family, &orbit)?;
+                // Islands are small, and their cascades too.
+                let doublings = match limbs.is_empty() {
+                    true => self.effort.doublings,
+                    false => self.effort.doublings.min(1),
+                };
+                let more = self.follow(&family, &orbit, doublings)?;
                 limbs.extend(renumbered(more, &limbs));
             }
         }
@@ -264,9 +269,14 @@ impl<'a> Panel<'a> {
         })
     }
 
-    fn follow<F: Family>(&self, family: &F, orbit: &Orbit) -> Result<Vec<Limb>, StudyError> {
+    fn follow<F: Family>(
+        &self,
+        family: &F,
+        orbit: &Orbit,
+        doublings: usize,
+    ) -> Result<Vec<Limb>, StudyError> {
         let options = BranchesOptions {
-            doublings: self.effort.doublings,
+            doublings,
             continuation: ContinuationOptions {
                 points: 600,
                 ..ContinuationOptions::default()
