@@ -106,13 +106,14 @@ impl ContinueTable {
             transient: default_transient(),
             step: default_step(),
             points: default_points(),
-            doublings: default_doublings(),
+            doublings: 2,
             cloud: default_cloud(),
             second: Some(SecondTable {
                 parameter: "base.frequency_ratio".to_owned(),
                 from: 0.85,
                 to: 1.15,
-                curves: Vec::new(),
+                // each takes some ten seconds
+                curves: ["LP1", "LP2", "PD1"].map(str::to_owned).to_vec(),
             }),
         }
     }
