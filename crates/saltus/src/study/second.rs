@@ -14,8 +14,10 @@ use saltus_orbits::{
 /// Step of the differences: 1e-12 of curvature, and 1e-14 of noise over 1e-5.
 const STEP: f64 = 1e-5;
 
-/// How far aside the secant method begins, as a part of the range.
-const ASIDE: f64 = 1e-5;
+/// How far aside the secant method begins, as a part of the range; nearer where a fold leaves no orbits there. It
+/// may go as many times as far as the second number says, or it has found another point.
+const ASIDE: [f64; 2] = [1e-6, 1e-8];
+const ASTRAY: f64 = 30.0;
 
 /// Distances from a fold at which orbits are taken, as parts of the range; a hundredth of them where the
 /// multiplier is far from 1 there.
@@ -80,15 +82,20 @@ impl<F: Family> Scene<'_, F> {
         let places = &self.special.orbit.places;
         let places = &places[..places.len() / share];
         let value = |at: f64| test(&self.solve(&differences, at, places)?.multipliers);
-        // Begun aside, so as not to be told the answer.
-        let mut a = self.special.parameter - ASIDE * self.range;
-        let mut b = self.special.parameter + 0.7 * ASIDE * self.range;
+        ASIDE
+            .into_iter()
+            .find_map(|aside| self.secant(&value, aside * self.range))
+    }
+
+    /// Where a function of the parameter vanishes, begun `aside` of the special point, so as not to be told the
+    /// answer.
+    fn secant(&self, value: &impl Fn(f64) -> Option<f64>, aside: f64) -> Option<f64> {
+        let mut a = self.special.parameter - aside;
+        let mut b = self.special.parameter + 0.7 * aside;
         let (mut at_a, mut at_b) = (value(a)?, value(b)?);
         for _ in 0..ROUNDS {
             let next = b - at_b * (b - a) / (at_b - at_a);
-            if !next.is_finite()
-                || (next - self.special.parameter).abs() > 100.0 * ASIDE * self.range
-            {
+            if !next.is_finite() || (next - self.special.parameter).abs() > ASTRAY * aside {
                 return None;
             }
             if (next - b).abs() <= NARROW * self.range {

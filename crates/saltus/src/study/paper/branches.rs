@@ -1,7 +1,9 @@
 //! Why is each transition of Fig. 2 where it is? The branches of periodic orbits behind the clouds.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use saltus_hybrid as hybrid;
 use saltus_orbits::{
     Along, BranchesOptions, ContinuationOptions, Family, Limb, NewtonOptions, Orbit, Place, Point,
     Special, SpecialKind, branches, find_orbit,
@@ -25,7 +27,7 @@ const ALONG: Along = Along {
 /// Where the main branch of each panel is met: its long-term motion at high damping.
 const START: f64 = 0.45;
 
-/// Longest period of another attractor whose branch is followed.
+/// Longest period of an attractor whose branch is followed from it.
 const LONGEST: u32 = 8;
 
 /// A largest multiplier nearer to 1 than this is on the unit circle.
@@ -208,27 +210,26 @@ impl<'a> Panel<'a> {
         follow(&values, model_at, &starts, &Search::default(), self.control)
     }
 
-    /// Orbits of the other attractors, each where its period is shortest.
+    /// Orbits of all attractors, one for each period that each of them shows: cascades, windows and islands.
     fn others<F>(&self, family: &F, attractors: &Lineages) -> Result<Vec<Orbit>, StudyError>
     where
         F: Family,
     {
+        let rows = attractors.rows.iter();
+        let rows = rows.filter_map(|row| Some((row.value, row.census.as_ref().ok()?)));
+        let all =
+            rows.flat_map(|(zeta, census)| census.attractors.iter().map(move |one| (zeta, one)));
+        let mut seen: BTreeMap<(usize, u32), (f64, &hybrid::Point)> = BTreeMap::new();
+        for (zeta, one) in all {
+            if let Kind::Periodic(n) = one.entry.attractor.kind
+                && n <= LONGEST
+            {
+                seen.entry((one.identity, n))
+                    .or_insert((zeta, &one.arrival.point));
+            }
+        }
         let mut out = Vec::new();
-        for identity in 0..attractors.identities.len() {
-            let seen = attractors.rows.iter().filter_map(|row| {
-                let census = row.census.as_ref().ok()?;
-                let one = census
-                    .attractors
-                    .iter()
-                    .find(|one| one.identity == identity)?;
-                match one.entry.attractor.kind {
-                    Kind::Periodic(n) if n <= LONGEST => Some((n, row.value, &one.arrival.point)),
-                    _ => None,
-                }
-            });
-            let Some((period, zeta, point)) = seen.min_by_key(|(n, ..)| *n) else {
-                continue;
-            };
+        for ((_, period), (zeta, point)) in seen {
             let model = self.model_at(zeta)?;
             let run = saltus_hybrid::record(
                 &saltus_hybrid::Leg {
