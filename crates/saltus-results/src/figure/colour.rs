@@ -52,8 +52,6 @@ impl Colour {
     pub const OTHER: Self = Self(192, 250, 143);
     /// A class for what has no order, such as chaos: nearly black.
     pub const IRREGULAR: Self = Self(24, 24, 24);
-    /// A class for a torus: between order and none, brown.
-    pub const TORUS: Self = Self(140, 84, 36);
     /// A class for what could not be decided: middle grey.
     pub const UNDECIDED: Self = Self(150, 150, 150);
     /// A class for what could not be computed, rare and to be seen: red.
@@ -207,7 +205,6 @@ mod tests {
         classes.extend([
             Colour::OTHER,
             Colour::IRREGULAR,
-            Colour::TORUS,
             Colour::UNDECIDED,
             Colour::FAILED,
         ]);

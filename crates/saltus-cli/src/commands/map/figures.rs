@@ -4,7 +4,7 @@ use super::super::plane::{Layers, Plane, Status};
 use saltus_results::{Class, ClassMap, Colour, Figure};
 
 /// Periods with a colour of their own: doublings first, as they are the most frequent.
-const PERIODS: [u16; 10] = [1, 2, 4, 8, 3, 6, 5, 7, 16, 12];
+const PERIODS: [u16; 9] = [1, 2, 4, 8, 3, 6, 5, 7, 16];
 
 /// The periods, and what is not periodic.
 pub(super) fn periods(plane: &Plane, layers: &Layers) -> Figure {
@@ -20,7 +20,8 @@ pub(super) fn periods(plane: &Plane, layers: &Layers) -> Figure {
     });
     let others = [
         Class::new("Another period up to 32", Colour::OTHER),
-        Class::new("Quasi-periodic", Colour::TORUS),
+        // the colour that the periods leave
+        Class::new("Quasi-periodic", Colour::SERIES[PERIODS.len()]),
         Class::new("Chaotic", Colour::IRREGULAR),
         Class::new("Not periodic", Colour::IRREGULAR),
         Class::new("Undecided", Colour::UNDECIDED),
