@@ -37,7 +37,7 @@ pub(crate) enum Command {
     Map(PlaneArgs),
     /// Which long-term motion each first state leads to
     #[command(after_help = help::BASINS)]
-    Basins(PlaneArgs),
+    Basins(BasinsArgs),
     /// The periodic orbit near the long-term motion, stable or not
     #[command(after_help = help::ORBIT)]
     Orbit(WorkArgs),
@@ -143,6 +143,15 @@ pub(crate) struct PlaneArgs {
     /// Go on with an interrupted run of the same command; starts anew if there is none
     #[arg(long, requires = "out")]
     pub(crate) resume: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct BasinsArgs {
+    #[command(flatten)]
+    pub(crate) plane: PlaneArgs,
+    /// Number and colour the attractors as `saltus attractors` does along the sweep of [attractors]
+    #[arg(long = "match")]
+    pub(crate) matched: bool,
 }
 
 #[derive(Debug, Args)]

@@ -133,7 +133,9 @@ is a first state of every jumper, with the plate at rest; it is run as for
 Two cycles are the same attractor if they have the same period and their
 samples agree within 0.004 eta after some rotation. Motions that do not repeat
 are the same if the ranges of their samples mostly overlap, so two chaotic
-attractors may be joined. Numbers go by the share of the pixels, from 1.
+attractors may be joined. Numbers go by the share of the pixels, from 1. With
+--match the attractors are sought along the sweep of [attractors] too, and have
+the colours that they have there, so that pictures at several values agree.
 
 Layers (basins.nc): attractor (its number, 0 for none) and those of
   `saltus map`, over y and x.
@@ -141,6 +143,7 @@ Layers (basins.nc): attractor (its number, 0 for none) and those of
 JSON (--json, and basins.json in --out):
   attractors         the most frequent first:
     number, period   forcing periods; null if not periodic
+    matched          number in `saltus attractors` (--match); null if not met
     pixels, share    how many pixels lead to it, and of all
     start            x and y of the first of them
     contact_ratio, peak_reaction, peak_acceleration

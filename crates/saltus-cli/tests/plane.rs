@@ -483,3 +483,26 @@ fn asked_to_stop_it_says_how_to_go_on() {
     assert!(!desk.path("out").exists());
     assert!(count_pieces(&run.pieces) >= 1);
 }
+
+#[test]
+fn basins_take_the_numbers_that_attractors_have_along_their_sweep() {
+    let sweep = [
+        "attractors.from=0.26",
+        "attractors.to=0.34",
+        "attractors.count=3",
+        "attractors.starts=8",
+        "attractors.transient=100",
+    ];
+    let sweep: Vec<&str> = sweep.iter().flat_map(|set| ["--set", set]).collect();
+    let desk = Desk::new();
+    let plain = run(&desk, "basins", &sweep);
+    let matched = run(&desk, "basins", &[&["--match"], &sweep[..]].concat());
+    let list = |found: &Value| found["attractors"].as_array().unwrap().clone();
+    for (without, with) in list(&plain).iter().zip(list(&matched)) {
+        assert!(without["matched"].is_null());
+        // at zeta_h 0.3 only the 2-cycle on which every sweep ends
+        assert_eq!(with["matched"].is_null(), with["period"].is_null());
+        assert_eq!(without["share"], with["share"]);
+    }
+    assert!(!list(&matched)[0]["matched"].is_null());
+}

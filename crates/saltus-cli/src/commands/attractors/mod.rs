@@ -13,7 +13,7 @@ use crate::exit::Failure;
 use crate::folder::Folder;
 use crate::{interrupt, progress};
 use report::Report;
-use saltus::study::{Kind, Lineages, Row, Search, Starts};
+use saltus::study::{Control, Kind, Lineages, Row, Search, Starts};
 use saltus_config::{Parameter, Study};
 use std::sync::atomic::Ordering;
 
@@ -33,20 +33,8 @@ pub(super) fn run(args: &WorkArgs) -> Result<(), Failure> {
     refuse_if_too_many(&study, values.len())?;
     let control = super::control(&study, &args.threads);
     let folder = super::folder(&args.output, &study)?;
-    let swept = parameter.as_ref();
-    let models = swept.map(|parameter| Models::new(&study, &[parameter], control.options));
-    let model_at = |value| match &models {
-        Some(models) => models.at(&[value]),
-        None => study.setup().model(),
-    };
-    let (starts, search) = plan(&study);
-    let work = || saltus::study::follow(&values, model_at, &starts, &search, &control);
-    // most runs settle early, and some are run on: about right, and known from the beginning
-    let total = (values.len() * starts.count) as u64 * (search.transient + search.record);
     let quiet = args.output.quiet;
-    let found = progress::follow(total, "periods, at most about", quiet, &control.done, work)?;
-    interrupt::check()?;
-    refuse_if_all_lost(&found.rows)?;
+    let found = followed(&study, parameter.as_ref(), &values, &control, quiet)?;
     let run = Run {
         study: &study,
         parameter,
@@ -58,6 +46,54 @@ pub(super) fn run(args: &WorkArgs) -> Result<(), Failure> {
         write(folder, &run, &report)?;
     }
     super::tell(&args.output, &report, || summary::text(&run, &report))
+}
+
+/// The attractors at all values, matched.
+fn followed(
+    study: &Study,
+    parameter: Option<&Parameter>,
+    values: &[f64],
+    control: &Control,
+    quiet: bool,
+) -> Result<Lineages, Failure> {
+    let models = parameter.map(|parameter| Models::new(study, &[parameter], control.options));
+    let model_at = |value| match &models {
+        Some(models) => models.at(&[value]),
+        None => study.setup().model(),
+    };
+    let (starts, search) = plan(study);
+    let work = || saltus::study::follow(values, model_at, &starts, &search, control);
+    // most runs settle early, and some are run on: about right, and known from the beginning
+    let total = (values.len() * starts.count) as u64 * (search.transient + search.record);
+    let found = progress::follow(total, "periods, at most about", quiet, &control.done, work)?;
+    interrupt::check()?;
+    refuse_if_all_lost(&found.rows)?;
+    Ok(found)
+}
+
+/// The attractors along the sweep of [attractors], and the study's own value on it: what gives a picture of basins the
+/// numbers that they have there.
+pub(super) fn along_the_sweep(
+    study: &Study,
+    control: &Control,
+    quiet: bool,
+) -> Result<(Lineages, f64), Failure> {
+    let (parameter, mut values) = question(study)?;
+    let own = parameter
+        .as_ref()
+        .and_then(|parameter| parameter.value(study));
+    let (Some(parameter), Some(own)) = (parameter, own) else {
+        let message = "--match takes numbers along a parameter, and [attractors] has no sweep";
+        let help = "add attractors.parameter, from, to and count, or leave --match out";
+        return Err(Failure::refused(message, help));
+    };
+    if !values.contains(&own) {
+        values.push(own);
+        values.sort_by(f64::total_cmp);
+    }
+    refuse_if_too_many(study, values.len())?;
+    let found = followed(study, Some(&parameter), &values, control, quiet)?;
+    Ok((found, own))
 }
 
 /// What changes and its values, the lowest first.
@@ -158,7 +194,7 @@ impl Run<'_> {
             (Some(only), _) => Some(format!("{only}T")),
             _ => None,
         };
-        let rest = kinds.contains(&Kind::NotPeriodic);
+        let rest = kinds.iter().any(|kind| kind.never_repeats());
         let rest = rest.then(|| "not periodic".to_owned());
         let parts: Vec<String> = cycles.into_iter().chain(rest).collect();
         parts.join(", ")

@@ -18,6 +18,12 @@ pub(super) fn basins(plane: &Plane, basins: &Basins) -> Figure {
         .zip(colours.copied())
         .collect();
     shown.extend(chaos.map(|place| (place, Colour::IRREGULAR)));
+    // The colours that they have along the sweep of attractors, as far as there are some.
+    for (place, colour) in &mut shown {
+        let identity = basins.identity(*place);
+        let own = identity.and_then(|identity| Colour::ATTRACTORS.get(identity));
+        *colour = own.copied().unwrap_or(*colour);
+    }
     shown.sort_by_key(|(place, _)| *place);
     let named = shown
         .iter()

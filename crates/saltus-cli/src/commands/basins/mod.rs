@@ -5,8 +5,9 @@ mod report;
 mod summary;
 mod tables;
 
+use super::attractors;
 use super::plane::{self, Cell, Gather, Layers, Plane};
-use crate::args::PlaneArgs;
+use crate::args::BasinsArgs;
 use crate::exit::Failure;
 use crate::folder::Folder;
 use report::Report;
@@ -37,6 +38,8 @@ struct Basins {
     attractors: Vec<Entry>,
     /// Its number from 1; 0 for none.
     attractor: Vec<u16>,
+    /// Of each attractor its number along the sweep of [attractors], from 0; empty where nobody asked for it.
+    identities: Vec<Option<usize>>,
 }
 
 /// What is being found, pixel by pixel.
@@ -47,7 +50,8 @@ struct Finding {
     number: Vec<Option<usize>>,
 }
 
-pub(super) fn run(args: &PlaneArgs) -> Result<(), Failure> {
+pub(super) fn run(args: &BasinsArgs) -> Result<(), Failure> {
+    let (matched, args) = (args.matched, &args.plane);
     let study = super::load(&args.work.study, &[])?;
     let plane = question(&study)?;
     let control = super::control(&study, &args.work.threads);
@@ -64,7 +68,18 @@ pub(super) fn run(args: &PlaneArgs) -> Result<(), Failure> {
         catalogue: Catalogue::default(),
         number: Vec::new(),
     };
-    let write = |finding: Finding, folder| write(&study, &plane, finding.ranked(), folder);
+    // Sought first, so that a sweep that cannot be made is refused at once.
+    let quiet = args.work.output.quiet;
+    let sweep = matched.then(|| attractors::along_the_sweep(&study, &control, quiet));
+    let sweep = sweep.transpose()?;
+    let write = |finding: Finding, folder| {
+        let mut basins = finding.ranked();
+        if let Some((found, own)) = &sweep {
+            let identity = |entry: &Entry| found.identity(*own, &entry.attractor);
+            basins.identities = basins.attractors.iter().map(identity).collect();
+        }
+        write(&study, &plane, basins, folder)
+    };
     let report = plane::run(
         args,
         ("basins", &study, &plane),
@@ -115,7 +130,15 @@ impl Finding {
             layers: self.layers,
             attractors,
             attractor: self.number.into_iter().map(place).collect(),
+            identities: Vec::new(),
         }
+    }
+}
+
+impl Basins {
+    /// Number of an attractor along the sweep of [attractors].
+    fn identity(&self, place: usize) -> Option<usize> {
+        self.identities.get(place).copied().flatten()
     }
 }
 

@@ -28,6 +28,8 @@ pub(super) struct Report<'a> {
 #[derive(Serialize)]
 pub(super) struct AttractorReport {
     pub(super) number: usize,
+    /// Its number along the sweep of `saltus attractors`; null if it was not met there or not asked for.
+    matched: Option<usize>,
     /// Null if not periodic.
     pub(super) period: Option<u32>,
     pub(super) pixels: u64,
@@ -58,7 +60,10 @@ impl<'a> Report<'a> {
             pixels,
             tally: layers.tally(),
             attractors: attractors
-                .map(|(place, entry)| AttractorReport::new(plane, place + 1, entry))
+                .map(|(place, entry)| AttractorReport {
+                    matched: basins.identity(place).map(|identity| identity + 1),
+                    ..AttractorReport::new(plane, place + 1, entry)
+                })
                 .collect(),
             periods_run: layers.periods_run.iter().map(|&n| u64::from(n)).sum(),
             first_failure: FirstFailure::of(plane, layers),
@@ -83,6 +88,7 @@ impl AttractorReport {
         };
         Self {
             number,
+            matched: None,
             period: match motion.kind {
                 Kind::Periodic(n) => Some(n),
                 _ => None,
