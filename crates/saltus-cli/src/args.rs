@@ -1,14 +1,15 @@
 //! The grammar of the command line.
 
-use crate::exit::{self, Failure};
+use crate::ending::{self, Ending};
 use crate::{help, output};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::ffi::OsString;
 use std::io::{self, IsTerminal};
 use std::path::PathBuf;
 
 /// People who jump on a vibrating plate.
 #[derive(Debug, Parser)]
-#[command(name = "saltus", version, after_help = exit::HELP, max_term_width = 100)]
+#[command(name = "saltus", version, after_help = ending::HELP, max_term_width = 100)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -191,13 +192,13 @@ pub(crate) struct SimulateArgs {
 }
 
 /// The command asked for; `None` if help or the version was asked for and printed.
-pub(crate) fn parse() -> Result<Option<Command>, Failure> {
-    match Cli::try_parse() {
+pub(crate) fn parse(args: impl IntoIterator<Item = OsString>) -> Result<Option<Command>, Ending> {
+    match Cli::try_parse_from(args) {
         Ok(cli) => Ok(Some(cli.command)),
         Err(error) if error.use_stderr() => {
             // standard error may be closed; the exit code says it all the same
             let _ = error.print();
-            Err(Failure::Usage)
+            Err(Ending::Usage)
         }
         Err(help) => {
             let text = help.render();

@@ -1,23 +1,7 @@
-//! The saltus program: reads a study file, computes, writes results. No formula lives here.
-
-mod args;
-mod commands;
-mod exit;
-mod folder;
-mod help;
-mod interrupt;
-mod output;
-mod per_jumper;
-mod progress;
-mod status;
+//! The saltus program; all of it is in the library.
 
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let outcome = match args::parse() {
-        Ok(Some(command)) => commands::run(command),
-        Ok(None) => Ok(()),
-        Err(failure) => Err(failure),
-    };
-    exit::finish(outcome)
+    saltus_cli::main(std::env::args_os()).into()
 }

@@ -1,17 +1,17 @@
 //! Writing: standard output without panics, files whole or not at all.
 
-use crate::exit::Failure;
+use crate::ending::Ending;
 use serde::Serialize;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 /// Writes text to standard output.
-pub(crate) fn print(text: &str) -> Result<(), Failure> {
+pub(crate) fn print(text: &str) -> Result<(), Ending> {
     print_with(|stdout| stdout.write_all(text.as_bytes()))
 }
 
 /// Writes one JSON document to standard output, piece by piece: it may be long.
-pub(crate) fn print_json(document: &impl Serialize) -> Result<(), Failure> {
+pub(crate) fn print_json(document: &impl Serialize) -> Result<(), Ending> {
     print_with(|stdout| stream_json(stdout, document))
 }
 
@@ -21,30 +21,26 @@ pub(crate) fn note(text: &str) {
     let _ = writeln!(io::stderr(), "note: {text}");
 }
 
-fn print_with(fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
+pub(crate) fn print_with(
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Ending> {
     let mut stdout = BufWriter::with_capacity(1 << 16, io::stdout().lock());
     fill(&mut stdout)
         .and_then(|()| stdout.flush())
         .map_err(|e| match e.kind() {
-            io::ErrorKind::BrokenPipe => Failure::ClosedPipe,
-            _ => Failure::write("standard output", &e),
+            io::ErrorKind::BrokenPipe => Ending::ClosedPipe,
+            _ => Ending::Output(e.to_string()),
         })
 }
 
 /// Writes a JSON document that ends in a newline.
-pub(crate) fn stream_json(to: &mut dyn Write, document: &impl Serialize) -> io::Result<()> {
+fn stream_json(to: &mut dyn Write, document: &impl Serialize) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut *to, document)?;
     to.write_all(b"\n")
 }
 
-/// A JSON document as text that ends in a newline.
-pub(crate) fn json(document: &impl Serialize) -> Result<String, Failure> {
-    let text = serde_json::to_string_pretty(document).map_err(Failure::computation)?;
-    Ok(text + "\n")
-}
-
 /// Writes text to a file, or to standard output if there is no file.
-pub(crate) fn print_or_write(out: Option<&Path>, text: &str) -> Result<(), Failure> {
+pub(crate) fn print_or_write(out: Option<&Path>, text: &str) -> Result<(), Ending> {
     match out {
         Some(path) => Ok(saltus_results::write_file_atomically(path, text)?),
         None => print(text),

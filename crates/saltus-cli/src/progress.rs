@@ -1,79 +1,94 @@
 //! A progress bar on standard error, only where someone is looking.
 
+use crate::output;
 use indicatif::{ProgressBar, ProgressStyle};
+use saltus_commands::{Stage, Watch};
 use std::io::{self, IsTerminal};
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::mpsc::{self, RecvTimeoutError};
-use std::thread;
+use std::sync::atomic::Ordering;
+use std::sync::mpsc::{self, RecvTimeoutError, Sender};
+use std::sync::{Mutex, PoisonError};
+use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
 /// Time between two looks at the counter: smooth to the eye, nothing to the processor.
 const TICK: Duration = Duration::from_millis(100);
 
-/// Does `work` while showing how far `done` has come towards `total` pieces of `what`, and about how long
-/// the rest will take; silent if `quiet` or if standard error is not a terminal. What is done before does
-/// not count as fast.
-pub(crate) fn follow<T>(
-    total: u64,
-    what: &str,
+/// Draws a bar for each part of the work.
+pub(crate) struct Bars {
     quiet: bool,
-    done: &AtomicU64,
-    work: impl FnOnce() -> T,
-) -> T {
-    let bar = || {
-        styled(
-            ProgressBar::new(total),
-            "{wide_bar} {pos}/{len}, {eta} left",
-        )
-    };
-    watch(bar, what, quiet, done, work)
+    drawn: Mutex<Option<Drawn>>,
 }
 
-/// As [`follow`] where nobody knows how much there is to do.
-pub(crate) fn count<T>(what: &str, quiet: bool, done: &AtomicU64, work: impl FnOnce() -> T) -> T {
-    let bar = || styled(ProgressBar::new_spinner(), "{spinner} {pos}, {elapsed}");
-    watch(bar, what, quiet, done, work)
+/// A bar with the thread that moves it.
+struct Drawn {
+    /// Dropped when the part ends, and that ends the thread.
+    working: Sender<()>,
+    thread: JoinHandle<()>,
 }
 
-fn watch<T>(
-    bar: impl FnOnce() -> ProgressBar,
-    what: &str,
-    quiet: bool,
-    done: &AtomicU64,
-    work: impl FnOnce() -> T,
-) -> T {
-    if quiet || !io::stderr().is_terminal() {
-        return work();
+impl Bars {
+    /// Silent if `quiet`; no bar is drawn if standard error is not a terminal.
+    pub(crate) fn new(quiet: bool) -> Self {
+        let drawn = Mutex::default();
+        Self { quiet, drawn }
     }
-    let bar = bar()
-        .with_message(what.to_owned())
-        .with_position(done.load(Ordering::Relaxed));
-    bar.reset_eta();
-    let bar = &Cleared(bar);
-    thread::scope(|scope| {
-        // dropped when the work is done, also by a panic, and that ends the watch
-        let (_working, watch) = mpsc::channel::<()>();
-        scope.spawn(move || {
-            while watch.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
-                bar.0.set_position(done.load(Ordering::Relaxed));
-            }
-        });
-        work()
-    })
+
+    fn replace(&self, next: Option<Drawn>) {
+        let mut drawn = self.drawn.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(last) = std::mem::replace(&mut *drawn, next) {
+            drop(last.working);
+            // a bar that could not be drawn is no reason to fail
+            let _ = last.thread.join();
+        }
+    }
 }
 
-fn styled(bar: ProgressBar, template: &str) -> ProgressBar {
-    match ProgressStyle::with_template(&format!("{{msg}} {template}")) {
+impl Watch for Bars {
+    fn begin(&self, stage: Stage) {
+        if self.quiet || !io::stderr().is_terminal() {
+            return;
+        }
+        let (working, watch) = mpsc::channel();
+        let thread = thread::spawn(move || {
+            let bar = bar(&stage);
+            while watch.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
+                bar.set_position(stage.done.load(Ordering::Relaxed));
+            }
+            // a message must not follow half of it
+            bar.finish_and_clear();
+        });
+        self.replace(Some(Drawn { working, thread }));
+    }
+
+    fn end(&self) {
+        self.replace(None);
+    }
+
+    fn note(&self, text: &str) {
+        if !self.quiet {
+            output::note(text);
+        }
+    }
+}
+
+fn bar(stage: &Stage) -> ProgressBar {
+    let (bar, template) = match stage.total {
+        Some(total) => (
+            ProgressBar::new(total),
+            "{msg} {wide_bar} {pos}/{len}, {eta} left",
+        ),
+        None => (
+            ProgressBar::new_spinner(),
+            "{msg} {spinner} {pos}, {elapsed}",
+        ),
+    };
+    let bar = match ProgressStyle::with_template(template) {
         Ok(style) => bar.with_style(style),
         Err(_) => bar,
-    }
-}
-
-/// A bar that leaves its line: a message must not follow half of it.
-struct Cleared(ProgressBar);
-
-impl Drop for Cleared {
-    fn drop(&mut self) {
-        self.0.finish_and_clear();
-    }
+    };
+    let bar = bar
+        .with_message(stage.what.clone())
+        .with_position(stage.done.load(Ordering::Relaxed));
+    bar.reset_eta();
+    bar
 }

@@ -1,0 +1,37 @@
+//! `saltus check`: what a study file describes.
+
+use crate::args::WorkArgs;
+use crate::ending::Ending;
+use crate::output;
+use saltus_commands::{Context, Folder, describe, warnings};
+use saltus_config::Study;
+use serde::Serialize;
+
+/// The JSON document.
+#[derive(Serialize)]
+struct Report<'a> {
+    valid: bool,
+    file: String,
+    warnings: Vec<String>,
+    study: &'a Study,
+}
+
+pub(crate) fn run(args: &WorkArgs) -> Result<(), Ending> {
+    let study = crate::run::load(&args.study, &[])?;
+    if let Some(out) = &args.output.out {
+        Folder::stage(out, &study, &Context::default())?.commit()?;
+    }
+    let file = args.study.file.display().to_string();
+    if args.output.json {
+        return output::print_json(&Report {
+            valid: true,
+            file,
+            warnings: warnings(&study),
+            study: &study,
+        });
+    }
+    if args.output.quiet {
+        return Ok(());
+    }
+    output::print(&format!("{file}: valid\n{}", describe(&study)?))
+}

@@ -1,0 +1,153 @@
+//! How the program ends: what can go wrong, the exit code of each, and how it is told.
+//!
+//! | code | meaning |
+//! |---|---|
+//! | 0 | done |
+//! | 1 | the computation failed |
+//! | 2 | wrong usage, or a study file that says something impossible |
+//! | 3 | a file, folder or standard output cannot be read or written |
+//! | 130 | interrupted (Ctrl-C) |
+//! | 141 | the reader of standard output closed it (as `head` does); nothing is said |
+
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
+use saltus_commands::Failure;
+use saltus_config::StudyErrorKind;
+use saltus_results::ResultsError;
+use std::fmt;
+use std::io::{self, IsTerminal, Write};
+
+/// Shown below the help text.
+pub(crate) const HELP: &str = "\
+Start with:
+  saltus reproduce                      every figure of the paper into ./results
+  saltus init paper --out paper.toml    a study file of your own
+
+Exit codes:
+  0    done
+  1    the computation failed; the message says where and what to try
+  2    wrong usage, or something wrong in the study file or an override
+  3    a file, folder or standard output cannot be read or written
+  130  interrupted (Ctrl-C); no half-written file is left
+  141  standard output was closed by its reader (as `head` does); nothing is said";
+
+/// Why the program did not do what was asked.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Ending {
+    /// Told by the command line parser.
+    #[error("wrong usage")]
+    Usage,
+    /// There is no answer.
+    #[error(transparent)]
+    Failure(#[from] Failure),
+    /// Standard output refused.
+    #[error("cannot write standard output: {0}")]
+    Output(String),
+    /// Whoever read standard output has stopped to.
+    #[error("standard output was closed")]
+    ClosedPipe,
+}
+
+impl From<ResultsError> for Ending {
+    fn from(error: ResultsError) -> Self {
+        Failure::from(error).into()
+    }
+}
+
+impl Ending {
+    fn code(&self) -> u8 {
+        match self {
+            Self::Usage => 2,
+            Self::Failure(failure) => code(failure),
+            Self::Output(_) => 3,
+            Self::ClosedPipe => 141,
+        }
+    }
+}
+
+fn code(failure: &Failure) -> u8 {
+    match failure {
+        Failure::Lost(reason) => code(reason),
+        Failure::Study(error) if error.kind() == StudyErrorKind::Unreadable => 3,
+        Failure::Computation { .. } | Failure::Results(ResultsError::Png { .. }) => 1,
+        Failure::Study(_) | Failure::Refused { .. } => 2,
+        Failure::Work { .. } | Failure::Results(_) => 3,
+        Failure::Interrupted | Failure::Suspended { .. } => 130,
+    }
+}
+
+impl Diagnostic for Ending {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        match self {
+            Self::Failure(failure) => Some(Box::new(failure.help()?)),
+            _ => None,
+        }
+    }
+}
+
+/// Tells a failure on standard error and gives the exit code.
+pub(crate) fn finish(outcome: Result<(), Ending>) -> u8 {
+    let Err(ending) = outcome else {
+        return 0;
+    };
+    match &ending {
+        Ending::Usage | Ending::ClosedPipe => {}
+        // with the line of the file
+        Ending::Failure(Failure::Study(error)) => tell(error),
+        other => tell(other),
+    }
+    ending.code()
+}
+
+/// Drawn on a terminal; plain, unwrapped and without colour for a file or a log.
+fn tell(diagnostic: &dyn Diagnostic) {
+    let terminal = io::stderr().is_terminal();
+    let colour = terminal && std::env::var_os("NO_COLOR").is_none();
+    let theme = match (terminal, colour) {
+        (true, true) => GraphicalTheme::unicode(),
+        (true, false) => GraphicalTheme::unicode_nocolor(),
+        (false, _) => GraphicalTheme::none(),
+    };
+    let handler = GraphicalReportHandler::new_themed(theme).with_links(false);
+    let handler = if terminal {
+        handler.with_width(100)
+    } else {
+        handler.with_wrap_lines(false)
+    };
+    let mut text = String::from("Error:\n");
+    if handler.render_report(&mut text, diagnostic).is_err() {
+        text = format!("Error: {diagnostic}\n");
+    }
+    if !text.ends_with('\n') {
+        text.push('\n');
+    }
+    // nobody is left to tell if standard error is closed
+    let _ = io::stderr().write_all(text.as_bytes());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Ending, HELP};
+    use saltus_commands::Failure;
+
+    #[test]
+    fn every_code_is_in_the_help() {
+        let computation = Failure::Computation {
+            message: "x".to_owned(),
+            help: None,
+        };
+        for ending in [
+            Ending::Usage,
+            computation.into(),
+            Failure::refused("x", "y").into(),
+            Ending::Output("x".to_owned()),
+            Failure::Interrupted.into(),
+            Failure::Suspended { folder: "x".into() }.into(),
+            Ending::ClosedPipe,
+        ] {
+            assert!(
+                HELP.contains(&format!("\n  {:<5}", ending.code())),
+                "{ending}"
+            );
+        }
+    }
+}

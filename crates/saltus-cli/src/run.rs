@@ -1,0 +1,178 @@
+//! What each command does: reads the study, asks, writes and tells what was found.
+
+use crate::args::{
+    BasinsArgs, Command, ContinueArgs, OutputArgs, PlaneArgs, ReproduceArgs, SimulateArgs,
+    StudyArgs, ThreadArgs, WorkArgs,
+};
+use crate::ending::Ending;
+use crate::progress::Bars;
+use crate::{check, init, interrupt, output, schema};
+use saltus_commands::{Answer, Context, Failure, Folder, Keep, Labelled, Request};
+use saltus_config::Study;
+use std::io;
+use std::path::Path;
+use std::time::Instant;
+
+/// Does what was asked.
+pub(crate) fn run(command: Command) -> Result<(), Ending> {
+    match command {
+        Command::Reproduce(args) => reproduce(&args),
+        Command::Init(args) => init::run(&args),
+        Command::Check(args) => check::run(&args),
+        Command::Schema(args) => schema::run(&args),
+        Command::Frequencies(args) => work(&Request::Frequencies, &args),
+        Command::Simulate(args) => simulate(&args),
+        Command::Sweep(args) => work(&Request::Sweep, &args),
+        Command::Map(args) => plane(&Request::Map, &args),
+        Command::Basins(args) => basins(&args),
+        Command::Orbit(args) => work(&Request::Orbit, &args),
+        Command::Continue(args) => continuation(&args),
+        Command::Lyapunov(args) => work(&Request::Lyapunov, &args),
+        Command::Attractors(args) => work(&Request::Attractors, &args),
+    }
+}
+
+/// How a question is answered, beside the question.
+struct How<'a> {
+    output: &'a OutputArgs,
+    threads: &'a ThreadArgs,
+    keep: Option<Keep>,
+}
+
+fn work(request: &Request, args: &WorkArgs) -> Result<(), Ending> {
+    let study = load(&args.study, &[])?;
+    let how = How {
+        output: &args.output,
+        threads: &args.threads,
+        keep: None,
+    };
+    answer(request, &study, how)
+}
+
+fn simulate(args: &SimulateArgs) -> Result<(), Ending> {
+    let periods = args.periods.iter();
+    let periods: Vec<String> = periods.map(|n| format!("simulate.periods={n}")).collect();
+    let study = load(&args.study, &periods)?;
+    let how = How {
+        output: &args.output,
+        threads: &args.threads,
+        keep: None,
+    };
+    answer(&Request::Simulate, &study, how)
+}
+
+fn plane(request: &Request, args: &PlaneArgs) -> Result<(), Ending> {
+    let study = load(&args.work.study, &[])?;
+    let keep = args.work.output.out.clone().map(|out| Keep {
+        out,
+        resume: args.resume,
+    });
+    let how = How {
+        output: &args.work.output,
+        threads: &args.work.threads,
+        keep,
+    };
+    answer(request, &study, how)
+}
+
+fn basins(args: &BasinsArgs) -> Result<(), Ending> {
+    let matched = args.matched;
+    plane(&Request::Basins { matched }, &args.plane)
+}
+
+fn continuation(args: &ContinueArgs) -> Result<(), Ending> {
+    let origin = args.from.clone().zip(args.at.clone());
+    let origin = origin.map(|(from, at)| Labelled { from, at });
+    work(&Request::Continue { origin }, &args.work)
+}
+
+fn reproduce(args: &ReproduceArgs) -> Result<(), Ending> {
+    let clock = Instant::now();
+    let output = OutputArgs {
+        json: args.json,
+        out: Some(args.out.clone()),
+        quiet: args.quiet,
+    };
+    let how = How {
+        output: &output,
+        threads: &args.threads,
+        keep: None,
+    };
+    answer(
+        &Request::Reproduce { quick: args.quick },
+        &Study::paper(),
+        how,
+    )?;
+    if args.json || args.quiet {
+        return Ok(());
+    }
+    let seconds = clock.elapsed().as_secs_f64();
+    let page = args.out.join("index.html");
+    output::print(&format!(
+        "\nWritten in {seconds:.0} s. Open {}\n",
+        page.display()
+    ))
+}
+
+/// Asks, writes the folder of results if one was asked for, and tells what was found.
+fn answer(request: &Request, study: &Study, how: How) -> Result<(), Ending> {
+    let bars = Bars::new(how.output.quiet);
+    let context = Context {
+        threads: how.threads.threads.map_or(0, usize::from),
+        stop: interrupt::flag(),
+        watch: &bars,
+        keep: how.keep,
+    };
+    let study = &request.study(study)?;
+    if let Some(out) = &how.output.out {
+        // refused before a long computation, but staged after it: a killed one leaves nothing behind
+        drop(Folder::stage(out, study, &context)?);
+    }
+    let answer = request.ask(study, &context)?;
+    if let Some(out) = &how.output.out {
+        write(request, answer.as_ref(), study, out, &context)?;
+    }
+    tell(how.output, answer.as_ref())?;
+    let shortfall = answer.shortfall();
+    answer.stored()?;
+    shortfall.map_or(Ok(()), |failure| Err(failure.into()))
+}
+
+fn write(
+    request: &Request,
+    answer: &dyn Answer,
+    study: &Study,
+    out: &Path,
+    context: &Context,
+) -> Result<(), Failure> {
+    let mut folder = Folder::stage(out, study, context)?;
+    let written = answer
+        .store(request, &mut folder)
+        .and_then(|()| folder.commit());
+    match (written, answer.pieces()) {
+        (Err(Failure::Interrupted), Some(pieces)) => Err(Failure::Suspended {
+            folder: pieces.to_path_buf(),
+        }),
+        (written, _) => written.map(drop),
+    }
+}
+
+/// One document, or a text for people, or nothing, as asked.
+fn tell(args: &OutputArgs, answer: &dyn Answer) -> Result<(), Ending> {
+    match (args.json, args.quiet) {
+        (true, _) => output::print_with(|stdout| answer.document(stdout)),
+        (false, true) => Ok(()),
+        (false, false) => output::print(&answer.summary()),
+    }
+}
+
+/// Reads the study with its overrides; `more` are overrides that a command's own options stand for.
+pub(crate) fn load(args: &StudyArgs, more: &[String]) -> Result<Study, Ending> {
+    let sets = [args.sets.as_slice(), more].concat();
+    let study = if args.file == Path::new("-") {
+        saltus_config::read("standard input", io::stdin().lock(), &sets)
+    } else {
+        saltus_config::load(&args.file, &sets)
+    };
+    Ok(study.map_err(Failure::from)?)
+}

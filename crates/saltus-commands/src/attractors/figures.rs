@@ -1,0 +1,205 @@
+//! The figure of attractors: sections in one colour for each, and below it the shares of their basins.
+
+use super::Run;
+use super::report::{Attractor, Report, Share, name};
+use crate::per_jumper::{PANELS, panel_title};
+use crate::words::{base_in_title, capitalized};
+use saltus::study::Fraction;
+use saltus_config::Parameter;
+use saltus_results::{Axis, Cloud, Colour, Curves, Figure, Panel};
+use std::cmp::Reverse;
+
+pub(super) fn attractors(run: &Run, report: &Report) -> Figure {
+    let shown = run.study.jumper.len().min(PANELS);
+    let series = Series::all(run, report);
+    let panels: Vec<Panel> = match &run.parameter {
+        Some(parameter) => {
+            let clouds = (0..shown).map(|i| cloud(run, parameter, &series, i).into());
+            clouds
+                .chain([shares(run, parameter, &series, report).into()])
+                .collect()
+        }
+        None => (0..shown).map(|i| plane(run, &series, i).into()).collect(),
+    };
+    let base = base_in_title(run.study, run.parameter.as_ref());
+    let each = run.parameter.as_ref().map_or("", |_| " per value");
+    let starts = report.starts;
+    let title = format!("Attractors: {base}{starts} quasi-random first states{each}");
+    match <[Panel; 1]>::try_from(panels) {
+        Ok([only]) => Figure::new(only).title(title),
+        Err(panels) => Figure::grid(1, panels).title(title),
+    }
+}
+
+/// What is drawn in one colour: an attractor, or all that there is no colour for.
+struct Series<'a> {
+    label: String,
+    colour: Colour,
+    /// With the places of their values.
+    points: Vec<(usize, &'a Attractor)>,
+}
+
+impl<'a> Series<'a> {
+    /// Those that most first states led to have colours of their own.
+    fn all(run: &Run, report: &'a Report) -> Vec<Self> {
+        let count = report.attractors.len();
+        let mut its: Vec<Vec<(usize, &Attractor)>> = vec![Vec::new(); count];
+        for (place, row) in report.rows.iter().enumerate() {
+            for one in &row.attractors {
+                its[one.number - 1].push((place, one));
+            }
+        }
+        let starts = |identity: &usize| its[*identity].iter().map(|(_, one)| one.drawn.starts);
+        let mut order: Vec<usize> = (0..count).collect();
+        order.sort_by_key(|identity| Reverse(starts(identity).sum::<u64>()));
+        let (own, rest) = order.split_at(count.min(Colour::ATTRACTORS.len()));
+        let mut own = own.to_vec();
+        own.sort_unstable();
+        let series = |(&identity, colour): (&usize, Colour)| Series {
+            label: label(run, identity, &its[identity]),
+            colour,
+            points: its[identity].clone(),
+        };
+        let mut all: Vec<Self> = own.iter().zip(Colour::ATTRACTORS).map(series).collect();
+        all.extend(rest.first().map(|_| Series {
+            label: "Other attractors".to_owned(),
+            colour: Colour::GREY,
+            points: rest.iter().flat_map(|&other| its[other].clone()).collect(),
+        }));
+        all
+    }
+
+    /// Value, low and high of its share at each of `values` values, of so many starts; not finite where it is not.
+    fn shares(&self, values: usize, of: u64) -> Vec<[f64; 3]> {
+        let mut counts = vec![None; values];
+        for &(place, one) in &self.points {
+            *counts[place].get_or_insert(0) += one.drawn.starts;
+        }
+        let share = |count: Option<u64>| {
+            count.map_or([f64::NAN; 3], |count| {
+                Share::from(Fraction { count, of }).share
+            })
+        };
+        counts.into_iter().map(share).collect()
+    }
+
+    /// All samples of a jumper with the places of their values.
+    fn samples(&self, jumper: usize) -> impl Iterator<Item = (usize, [f64; 2])> {
+        self.points.iter().flat_map(move |(place, one)| {
+            let (z, v) = (one.z.as_slice().get(jumper), one.v.as_slice().get(jumper));
+            let samples = z.into_iter().flatten().zip(v.into_iter().flatten());
+            samples.map(|(&z, &v)| (*place, [z, v]))
+        })
+    }
+}
+
+/// With its share where it has but one.
+fn label(run: &Run, identity: usize, its: &[(usize, &Attractor)]) -> String {
+    match (its, &run.parameter) {
+        ([(_, one)], None) => {
+            let [share, low, high] = one.drawn.share.map(|share| 100.0 * share);
+            let kind = name(one.period);
+            format!(
+                "{}: {kind}, {share:.1} % ({low:.1} to {high:.1} %)",
+                identity + 1
+            )
+        }
+        _ => format!("{}: {}", identity + 1, run.kinds(identity)),
+    }
+}
+
+/// The axis of the parameter, the same for all panels.
+fn axis(run: &Run, parameter: &Parameter) -> Axis {
+    let values = run.found.rows.iter().map(|row| row.value);
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+        (low.min(value), high.max(value))
+    });
+    let margin = 0.015 * (high - low);
+    Axis::new(capitalized(&parameter.label())).range(low - margin, high + margin)
+}
+
+fn cloud(run: &Run, parameter: &Parameter, series: &[Series], jumper: usize) -> Cloud {
+    let cloud = Cloud::new(
+        panel_title(jumper, run.study.jumper.len()),
+        axis(run, parameter),
+        Axis::new("Height z/η at cos Ωt = 1 (-)"),
+    );
+    series
+        .iter()
+        .fold(cloud.apart_over(run.found.rows.len()), |cloud, one| {
+            let points = one
+                .samples(jumper)
+                .map(|(place, [z, _])| (run.found.rows[place].value, z));
+            let (values, heights): (Vec<f64>, Vec<f64>) = points.unzip();
+            cloud.series(&one.label, values, heights).colour(one.colour)
+        })
+}
+
+/// Values whose dots and bars have room beside each other.
+const ROOMY: usize = 120;
+
+fn shares(run: &Run, parameter: &Parameter, series: &[Series], report: &Report) -> Curves {
+    let plot = Curves::new(
+        "",
+        axis(run, parameter),
+        Axis::new("Part of the first states (-)").range(-0.02, 1.02),
+    );
+    let values: Vec<f64> = run.found.rows.iter().map(|row| row.value).collect();
+    let plot = series.iter().fold(plot, |plot, one| {
+        let parts = one.shares(values.len(), report.starts.into());
+        let part = |part: usize| parts.iter().map(|share| share[part]).collect::<Vec<f64>>();
+        let interval = "95 % confidence interval";
+        match values.len() > ROOMY {
+            true => plot
+                .line(&one.label, &values[..], part(0))
+                .colour(one.colour)
+                .band(interval, part(1), part(2)),
+            false => plot
+                .dots(&one.label, &values[..], part(0))
+                .colour(one.colour)
+                .bars(interval, part(1), part(2)),
+        }
+    });
+    hysteresis(run, without_attractor(plot, report))
+}
+
+/// Where some first states led to no attractor, how many.
+fn without_attractor(plot: Curves, report: &Report) -> Curves {
+    let none = report.rows.iter().filter_map(|row| {
+        let share = row.undecided.share[0] + row.lost.share[0];
+        Some((row.value?, share)).filter(|_| share > 0.0)
+    });
+    let (values, none): (Vec<f64>, Vec<f64>) = none.unzip();
+    if none.is_empty() {
+        return plot;
+    }
+    plot.dots("Undecided or lost", values, none)
+        .colour(Colour::UNDECIDED)
+}
+
+fn hysteresis(run: &Run, plot: Curves) -> Curves {
+    if run.found.loops.is_empty() {
+        return plot;
+    }
+    let middle = |jump: Option<[f64; 2]>| jump.map(|[low, high]| 0.5 * (low + high));
+    let loops = run.found.loops.iter().map(|one| {
+        let from = middle(one.jump_down).unwrap_or(one.from);
+        (from, middle(one.jump_up).unwrap_or(one.to))
+    });
+    plot.shade("Hysteresis", &loops.collect::<Vec<_>>())
+}
+
+/// Sections in the plane of height and velocity, cycles on top of what is not periodic.
+fn plane(run: &Run, series: &[Series], jumper: usize) -> Curves {
+    let plot = Curves::new(
+        panel_title(jumper, run.study.jumper.len()),
+        Axis::new("Height z/η at cos Ωt = 1 (-)"),
+        Axis::new("Velocity ż/(η ω_h) at cos Ωt = 1 (-)"),
+    );
+    let mut order: Vec<&Series> = series.iter().collect();
+    order.sort_by_key(|one| Reverse(one.samples(jumper).count()));
+    order.into_iter().fold(plot, |plot, one| {
+        let (z, v): (Vec<f64>, Vec<f64>) = one.samples(jumper).map(|(_, [z, v])| (z, v)).unzip();
+        plot.dots(&one.label, z, v).colour(one.colour)
+    })
+}

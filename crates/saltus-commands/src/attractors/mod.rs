@@ -1,0 +1,207 @@
+//! `saltus attractors`: all coexisting attractors, in one place or matched along a parameter.
+
+mod figures;
+mod report;
+mod section;
+mod summary;
+mod tables;
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::models::Models;
+use crate::plane::{self, Loss};
+use crate::request::Answer;
+use crate::store::{self, Store};
+use report::Report;
+use saltus::study::{Control, Kind, Lineages, Row, Search, Starts};
+use saltus_config::{Parameter, Study};
+use std::io::{self, Write};
+use std::sync::atomic::Ordering;
+
+/// What was asked and found.
+struct Run<'a> {
+    study: &'a Study,
+    /// What changes; without it there is one row, whose value means nothing.
+    parameter: Option<Parameter>,
+    found: Lineages,
+    periods_run: u64,
+}
+
+pub(crate) fn ask<'a>(
+    study: &'a Study,
+    context: &Context,
+) -> Result<Box<dyn Answer + 'a>, Failure> {
+    plane::need_people(study, "a search for attractors")?;
+    let (parameter, values) = question(study)?;
+    refuse_if_too_many(study, values.len())?;
+    let control = context.control(study);
+    let found = followed(study, parameter.as_ref(), &values, &control, context)?;
+    Ok(Box::new(Run {
+        study,
+        parameter,
+        found,
+        periods_run: control.done.load(Ordering::Relaxed),
+    }))
+}
+
+/// The attractors at all values, matched.
+fn followed(
+    study: &Study,
+    parameter: Option<&Parameter>,
+    values: &[f64],
+    control: &Control,
+    context: &Context,
+) -> Result<Lineages, Failure> {
+    let models = parameter.map(|parameter| Models::new(study, &[parameter], control.options));
+    let model_at = |value| match &models {
+        Some(models) => models.at(&[value]),
+        None => study.setup().model(),
+    };
+    let (starts, search) = plan(study);
+    let work = || saltus::study::follow(values, model_at, &starts, &search, control);
+    // most runs settle early, and some are run on: about right, and known from the beginning
+    let total = (values.len() * starts.count) as u64 * (search.transient + search.record);
+    let found = context.follow(total, "periods, at most about", &control.done, work)?;
+    context.check()?;
+    refuse_if_all_lost(&found.rows)?;
+    Ok(found)
+}
+
+/// The attractors along the sweep of [attractors], and the study's own value on it: what gives a picture of basins the
+/// numbers that they have there.
+pub(super) fn along_the_sweep(
+    study: &Study,
+    control: &Control,
+    context: &Context,
+) -> Result<(Lineages, f64), Failure> {
+    let (parameter, mut values) = question(study)?;
+    let own = parameter
+        .as_ref()
+        .and_then(|parameter| parameter.value(study));
+    let (Some(parameter), Some(own)) = (parameter, own) else {
+        let message = "--match takes numbers along a parameter, and [attractors] has no sweep";
+        let help = "add attractors.parameter, from, to and count, or leave --match out";
+        return Err(Failure::refused(message, help));
+    };
+    if !values.contains(&own) {
+        values.push(own);
+        values.sort_by(f64::total_cmp);
+    }
+    refuse_if_too_many(study, values.len())?;
+    let found = followed(study, Some(&parameter), &values, control, context)?;
+    Ok((found, own))
+}
+
+/// What changes and its values, the lowest first.
+fn question(study: &Study) -> Result<(Option<Parameter>, Vec<f64>), Failure> {
+    let Some(axis) = study.attractors.sweep() else {
+        return Ok((None, vec![0.0]));
+    };
+    let mut values = axis.values();
+    values.sort_by(f64::total_cmp);
+    Ok((Some(Parameter::parse(&axis.parameter)?), values))
+}
+
+fn plan(study: &Study) -> (Starts, Search) {
+    let table = &study.attractors;
+    let starts = Starts {
+        count: table.starts as usize,
+        z: table.z,
+        v: table.v,
+        plate: table.plate,
+    };
+    let search = Search {
+        transient: table.transient.into(),
+        record: table.record.into(),
+        ..Search::default()
+    };
+    (starts, search)
+}
+
+/// First states of one jumper, at all values together: what each leads to is kept until all are known, some
+/// 1 kB of a cycle and up to 5 kB of chaos.
+const MOST: usize = 1_000_000;
+
+fn refuse_if_too_many(study: &Study, values: usize) -> Result<(), Failure> {
+    let (starts, jumpers) = (study.attractors.starts as usize, study.jumper.len());
+    let allowed = MOST / (values * jumpers);
+    if starts <= allowed {
+        return Ok(());
+    }
+    let people = match jumpers {
+        1 => String::new(),
+        _ => format!(" of {jumpers} jumpers"),
+    };
+    let message = format!(
+        "attractors.starts = {starts} at each of {values} values{people} are more than the {MOST} motions \
+         that fit into memory"
+    );
+    let help = match allowed {
+        0 => "a smaller attractors.count is needed".to_owned(),
+        _ => format!("attractors.starts = {allowed} at most, or a smaller attractors.count"),
+    };
+    Err(Failure::refused(message, help))
+}
+
+/// Nothing is worth keeping if no first state had a long-term motion.
+fn refuse_if_all_lost(rows: &[Row]) -> Result<(), Failure> {
+    let motion = |row: &Row| {
+        let census = row.census.as_ref();
+        census.is_ok_and(|census| census.lost.count < census.lost.of)
+    };
+    if rows.iter().any(motion) {
+        return Ok(());
+    }
+    let first = match rows.first().map(|row| &row.census) {
+        Some(Err(error)) => return Err(error.clone().into()),
+        Some(Ok(census)) => census.first_lost.clone(),
+        None => None,
+    };
+    let reason = first.map_or(String::new(), |lost| Loss::from(lost).reason);
+    let what = "no first state was run to its end; the first";
+    Err(Failure::computation(format!("{what}: {reason}")))
+}
+
+impl Answer for Run<'_> {
+    fn summary(&self) -> String {
+        summary::text(self, &Report::new(self))
+    }
+
+    fn document(&self, to: &mut dyn Write) -> io::Result<()> {
+        store::stream_json(to, &Report::new(self))
+    }
+
+    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
+        let report = Report::new(self);
+        tables::write(store, self, &report)?;
+        store.figure("attractors", &figures::attractors(self, &report))
+    }
+}
+
+impl Run<'_> {
+    /// A value of the parameter, if there is one.
+    fn value(&self, value: f64) -> Option<f64> {
+        self.parameter.as_ref().map(|_| value)
+    }
+
+    /// What attractor `identity` is along the parameter: `1T to 4T, not periodic`.
+    fn kinds(&self, identity: usize) -> String {
+        let all = self.found.rows.iter().flat_map(Row::attractors);
+        let its = all.filter(|counted| counted.identity == identity);
+        let kinds: Vec<Kind> = its.map(|counted| counted.entry.attractor.kind).collect();
+        let periods = kinds.iter().filter_map(|kind| match kind {
+            Kind::Periodic(n) => Some(*n),
+            _ => None,
+        });
+        let ends = (periods.clone().min(), periods.max());
+        let cycles = match ends {
+            (Some(low), Some(high)) if low < high => Some(format!("{low}T to {high}T")),
+            (Some(only), _) => Some(format!("{only}T")),
+            _ => None,
+        };
+        let rest = kinds.iter().any(|kind| kind.never_repeats());
+        let rest = rest.then(|| "not periodic".to_owned());
+        let parts: Vec<String> = cycles.into_iter().chain(rest).collect();
+        parts.join(", ")
+    }
+}

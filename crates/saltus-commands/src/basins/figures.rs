@@ -1,0 +1,66 @@
+//! The figures of basins.
+
+use super::Basins;
+use crate::plane::Plane;
+use saltus::study::{Entry, Kind};
+use saltus_results::{Class, ClassMap, Colour, Figure};
+
+/// A colour for each attractor, as far as there are some.
+pub(super) fn basins(plane: &Plane, basins: &Basins) -> Figure {
+    // the largest motion without a period is as dark as in a map of periods
+    let chaos = basins
+        .attractors
+        .iter()
+        .position(|entry| entry.attractor.kind.never_repeats());
+    let colours = Colour::SERIES.iter();
+    let mut shown: Vec<(usize, Colour)> = (0..basins.attractors.len())
+        .filter(|&place| Some(place) != chaos)
+        .zip(colours.copied())
+        .collect();
+    shown.extend(chaos.map(|place| (place, Colour::IRREGULAR)));
+    // The colours that they have along the sweep of attractors, as far as there are some.
+    for (place, colour) in &mut shown {
+        let identity = basins.identity(*place);
+        let own = identity.and_then(|identity| Colour::ATTRACTORS.get(identity));
+        *colour = own.copied().unwrap_or(*colour);
+    }
+    shown.sort_by_key(|(place, _)| *place);
+    let named = shown
+        .iter()
+        .map(|&(place, colour)| Class::new(label(place, &basins.attractors[place]), colour));
+    let others = [
+        Class::new("Another attractor", Colour::OTHER),
+        Class::new("Undecided", Colour::UNDECIDED),
+        Class::new("Failed", Colour::FAILED),
+    ];
+    let other = shown.len() as u8;
+    let class = |(pixel, &number): (usize, &u16)| match usize::from(number).checked_sub(1) {
+        Some(wanted) => shown
+            .iter()
+            .position(|(place, _)| *place == wanted)
+            .map_or(other, |place| place as u8),
+        None if basins.layers.status[pixel].is_motion() => other + 1,
+        None => other + 2,
+    };
+    let cells: Vec<u8> = basins.attractor.iter().enumerate().map(class).collect();
+    let map = ClassMap::new(
+        "The start leads to",
+        plane.figure_grid(),
+        cells,
+        named.chain(others),
+    );
+    Figure::new(map.shares())
+}
+
+fn label(place: usize, entry: &Entry) -> String {
+    let motion = &entry.attractor;
+    let contact = motion.contact_ratio.first().copied().unwrap_or(f64::NAN);
+    let what = match motion.kind {
+        Kind::Periodic(1) => "every forcing period".to_owned(),
+        Kind::Periodic(n) => format!("every {n} periods"),
+        Kind::QuasiPeriodic => "quasi-periodic".to_owned(),
+        Kind::Chaotic => "chaotic".to_owned(),
+        Kind::NotPeriodic | Kind::Undecided => "not periodic".to_owned(),
+    };
+    format!("{}: {what}, {:.0} % contact", place + 1, 100.0 * contact)
+}

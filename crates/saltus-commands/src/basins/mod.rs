@@ -1,0 +1,190 @@
+//! `saltus basins`: which long-term motion each first state leads to.
+
+mod figures;
+mod report;
+mod summary;
+mod tables;
+
+use crate::attractors;
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::plane::{self, Cell, Gather, Kept, Layers, Plane};
+use crate::request::Answer;
+use crate::store::{self, Store};
+use report::Report;
+use saltus::study::{Catalogue, Entry};
+use saltus_config::Study;
+use saltus_results::Variable;
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Shown to those whose study has none.
+const EXAMPLE: &str = "\
+add a table that says which first states, such as
+
+  [basins.x]
+  parameter = \"start.z\"
+  from = -2.0
+  to = 6.0
+  count = 64
+
+  [basins.y]
+  parameter = \"start.v\"
+  from = -4.0
+  to = 4.0
+  count = 64";
+
+/// What was found.
+struct Basins {
+    layers: Layers,
+    /// The most frequent first.
+    attractors: Vec<Entry>,
+    /// Its number from 1; 0 for none.
+    attractor: Vec<u16>,
+    /// Of each attractor its number along the sweep of [attractors], from 0; empty where nobody asked for it.
+    identities: Vec<Option<usize>>,
+}
+
+/// What is being found, pixel by pixel.
+struct Finding {
+    layers: Layers,
+    catalogue: Catalogue,
+    /// In the order of discovery.
+    number: Vec<Option<usize>>,
+}
+
+/// An answer.
+struct Found<'a> {
+    study: &'a Study,
+    plane: Plane,
+    basins: Basins,
+    kept: Kept,
+}
+
+pub(crate) fn ask<'a>(
+    study: &'a Study,
+    matched: bool,
+    context: &Context,
+) -> Result<Box<dyn Answer + 'a>, Failure> {
+    let plane = question(study)?;
+    let control = context.control(study);
+    let model = study.setup().model()?;
+    model.check_step(&control.options)?;
+    // Sought first, so that a sweep that cannot be made is refused at once.
+    let sweep = matched.then(|| attractors::along_the_sweep(study, &control, context));
+    let sweep = sweep.transpose()?;
+    let swapped = plane.x.parameter.key() == "start.v";
+    let start_at = |pixel| {
+        let (x, y) = plane.grid.at(pixel);
+        let (z, v) = if swapped { (y, x) } else { (x, y) };
+        Ok((model.clone(), model.start(z, v)))
+    };
+    let mut finding = Finding {
+        layers: Layers::new(study.jumper.len()),
+        catalogue: Catalogue::default(),
+        number: Vec::new(),
+    };
+    let kept = plane::run(("basins", study, &plane), context, start_at, &mut finding)?;
+    let mut basins = finding.ranked();
+    if let Err(failure) = basins.layers.refuse_if_all_lost() {
+        return kept.remove().and(Err(failure));
+    }
+    if let Some((found, own)) = &sweep {
+        let identity = |entry: &Entry| found.identity(*own, &entry.attractor);
+        basins.identities = basins.attractors.iter().map(identity).collect();
+    }
+    Ok(Box::new(Found {
+        study,
+        plane,
+        basins,
+        kept,
+    }))
+}
+
+/// What is asked, or what is missing in the question.
+fn question(study: &Study) -> Result<Plane, Failure> {
+    let table = study
+        .basins
+        .as_ref()
+        .ok_or_else(|| Failure::refused("the study has no [basins] table", EXAMPLE))?;
+    plane::need_people(study, "a map of basins")?;
+    Plane::new(
+        &table.x,
+        &table.y,
+        table.transient,
+        table.record,
+        table.exponent,
+    )
+}
+
+impl Gather for Finding {
+    fn cell(&mut self, pixel: usize, cell: Cell) {
+        self.layers.push(&cell);
+        let motion = cell.attractor.ok();
+        let number = motion.and_then(|motion| self.catalogue.file(pixel, motion));
+        self.number.push(number);
+    }
+}
+
+impl Finding {
+    fn ranked(self) -> Basins {
+        let (attractors, rank) = self.catalogue.ranked();
+        let place = |number: Option<usize>| {
+            number.map_or(0, |number| {
+                u16::try_from(rank[number] + 1).unwrap_or(u16::MAX)
+            })
+        };
+        Basins {
+            layers: self.layers,
+            attractors,
+            attractor: self.number.into_iter().map(place).collect(),
+            identities: Vec::new(),
+        }
+    }
+}
+
+impl Basins {
+    /// Number of an attractor along the sweep of [attractors].
+    fn identity(&self, place: usize) -> Option<usize> {
+        self.identities.get(place).copied().flatten()
+    }
+}
+
+impl Answer for Found<'_> {
+    fn summary(&self) -> String {
+        summary::text(&self.plane, &self.report())
+    }
+
+    fn document(&self, to: &mut dyn Write) -> io::Result<()> {
+        store::stream_json(to, &self.report())
+    }
+
+    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
+        let Self { plane, basins, .. } = self;
+        tables::write(store, self.study, &self.report())?;
+        store.figure("basins", &figures::basins(plane, basins))?;
+        store.figure("layers", &plane::layers_figure(plane, &basins.layers))?;
+        let title = "Basins of attraction of a jumper on a plate";
+        let over = [plane.y.variable(), plane.x.variable()];
+        let numbers = basins.attractor.clone();
+        let attractor = Variable::new("attractor", &[&over[0], &over[1]], numbers)
+            .long_name("Number of the attractor in the table attractors, 0 for none")
+            .units("1");
+        let dataset = plane::dataset(title, self.study, plane, basins.layers.clone());
+        store.dataset("basins.nc", dataset.variable(attractor))
+    }
+
+    fn pieces(&self) -> Option<&Path> {
+        self.kept.path()
+    }
+
+    fn stored(self: Box<Self>) -> Result<(), Failure> {
+        self.kept.remove()
+    }
+}
+
+impl Found<'_> {
+    fn report(&self) -> Report<'_> {
+        Report::new(self.study, &self.plane, &self.basins)
+    }
+}

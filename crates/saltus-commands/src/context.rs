@@ -1,0 +1,138 @@
+//! Who asks: how many threads work, what stops them, who watches.
+
+use crate::failure::Failure;
+use saltus::study::Control;
+use saltus_config::Study;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+/// How a question is worked on. None of it changes an answer.
+pub struct Context<'a> {
+    /// Threads; 0 for as many as the machine has.
+    pub threads: usize,
+    /// Raised to stop the work at its next step.
+    pub stop: Arc<AtomicBool>,
+    /// Told how far the work has come.
+    pub watch: &'a dyn Watch,
+    /// Where finished pieces of `map` and `basins` are kept while the rest is computed; nowhere by default.
+    pub keep: Option<Keep>,
+}
+
+/// Pieces of long work that outlive an interruption.
+#[derive(Clone, Debug)]
+pub struct Keep {
+    /// The folder of results to be: pieces lie beside it.
+    pub out: PathBuf,
+    /// Go on with pieces that are there; otherwise they are in the way.
+    pub resume: bool,
+}
+
+/// A part of the work.
+#[derive(Clone, Debug)]
+pub struct Stage {
+    /// What is counted, such as "pixels".
+    pub what: String,
+    /// How many there are; `None` where nobody knows.
+    pub total: Option<u64>,
+    /// How many are done.
+    pub done: Arc<AtomicU64>,
+}
+
+/// Someone who is told how far the work has come.
+pub trait Watch: Sync {
+    /// A part begins. What is done already does not count as fast.
+    fn begin(&self, stage: Stage);
+
+    /// It has ended, in whatever way.
+    fn end(&self);
+
+    /// Something worth knowing that is neither result nor failure.
+    fn note(&self, text: &str);
+}
+
+/// Nobody watches.
+#[derive(Clone, Copy, Debug)]
+pub struct Unwatched;
+
+impl Watch for Unwatched {
+    fn begin(&self, _: Stage) {}
+    fn end(&self) {}
+    fn note(&self, _: &str) {}
+}
+
+impl Default for Context<'_> {
+    fn default() -> Self {
+        Self {
+            threads: 0,
+            stop: Arc::default(),
+            watch: &Unwatched,
+            keep: None,
+        }
+    }
+}
+
+impl Context<'_> {
+    /// Everything about how a study runs: stepper, threads, a way to stop.
+    pub(crate) fn control(&self, study: &Study) -> Control {
+        Control {
+            options: study.options(),
+            threads: self.threads,
+            stop: Arc::clone(&self.stop),
+            ..Control::default()
+        }
+    }
+
+    /// Does `work` while someone watches `done` come towards `total` pieces of `what`.
+    pub(crate) fn follow<T>(
+        &self,
+        total: u64,
+        what: &str,
+        done: &Arc<AtomicU64>,
+        work: impl FnOnce() -> T,
+    ) -> T {
+        self.watched(Some(total), what, done, work)
+    }
+
+    /// As [`Self::follow`] where nobody knows how much there is to do.
+    pub(crate) fn count<T>(
+        &self,
+        what: &str,
+        done: &Arc<AtomicU64>,
+        work: impl FnOnce() -> T,
+    ) -> T {
+        self.watched(None, what, done, work)
+    }
+
+    fn watched<T>(
+        &self,
+        total: Option<u64>,
+        what: &str,
+        done: &Arc<AtomicU64>,
+        work: impl FnOnce() -> T,
+    ) -> T {
+        /// Ends the watch also where the work panics.
+        struct Watched<'a>(&'a dyn Watch);
+        impl Drop for Watched<'_> {
+            fn drop(&mut self) {
+                self.0.end();
+            }
+        }
+        self.watch.begin(Stage {
+            what: what.to_owned(),
+            total,
+            done: Arc::clone(done),
+        });
+        let _watched = Watched(self.watch);
+        work()
+    }
+
+    /// `Err` once the work shall stop; asked between parts that do not see it themselves.
+    pub(crate) fn check(&self) -> Result<(), Failure> {
+        if self.stop.load(Ordering::SeqCst) {
+            Err(Failure::Interrupted)
+        } else {
+            Ok(())
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! `saltus continue`: branches of periodic orbits over a parameter, and curves of their special points over two.
+
+mod curves;
+mod diagram;
+mod figures;
+mod origin;
+mod question;
+mod report;
+mod summary;
+mod tables;
+mod view;
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::models::Models;
+use crate::request::{Answer, Labelled};
+use crate::store::{self, Store};
+use curves::Followed;
+use origin::Origin;
+use question::Question;
+use report::Report;
+use saltus::hybrid::System;
+use saltus::model::{Model, ModelError};
+use saltus::orbits::{Limb, NewtonOptions, Orbit, Stroboscopic, branches, find_orbit};
+use saltus::study::{Control, OrbitSearch, Pass, Sweep, SweepRow, orbit_of, stroboscopic, sweep};
+use saltus_config::Study;
+use std::io::{self, Write};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use view::View;
+
+/// Forcing periods per value of the cloud: left out, and shown.
+const CLOUD: (u64, u64) = (150, 50);
+
+/// What was found.
+struct Run<'a> {
+    study: &'a Study,
+    /// At the start.
+    model: Model,
+    question: Question<'a>,
+    limbs: Vec<Limb>,
+    /// The limbs in the paper's units.
+    views: Vec<View>,
+    curves: Vec<Followed>,
+    cloud: Vec<SweepRow>,
+}
+
+/// The study at the orbit that the branches begin with.
+pub(crate) fn adopted(origin: &Labelled, study: &Study) -> Result<Study, Failure> {
+    Origin::read(&origin.from, &origin.at)?.adopt(study)
+}
+
+pub(crate) fn ask<'a>(
+    study: &'a Study,
+    origin: Option<&Labelled>,
+    context: &Context,
+) -> Result<Box<dyn Answer + 'a>, Failure> {
+    let origin = origin.map(|origin| Origin::read(&origin.from, &origin.at));
+    let origin = origin.transpose()?;
+    let question = Question::new(study)?;
+    Ok(Box::new(follow(study, question, origin.as_ref(), context)?))
+}
+
+fn follow<'a>(
+    study: &'a Study,
+    question: Question<'a>,
+    origin: Option<&Origin>,
+    context: &Context,
+) -> Result<Run<'a>, Failure> {
+    let control = &context.control(study);
+    let models = Models::new(study, &question.parameters(), control.options);
+    let model_at = |values: &[f64]| models.at(values);
+    let model = models.at(&question.start)?;
+    let family = stroboscopic(&model, model_at, control);
+    let found: Arc<AtomicU64> = Arc::default();
+    let go_on = || {
+        found.fetch_add(1, Ordering::Relaxed);
+        !control.stop.load(Ordering::Relaxed)
+    };
+    let limbs = context.count("points of branches", &found, || {
+        let (options, along) = (question.options(), question.along());
+        let first = first(&family, &model, study, &question, origin, control)?;
+        branches(&family, &first, &along, &options, &mut |_| go_on()).map_err(Failure::computation)
+    });
+    context.check()?;
+    let limbs = limbs?;
+    let view = |limb| View::new(limb, model_at);
+    let views: Vec<View> = limbs.iter().map(view).collect::<Result<_, ModelError>>()?;
+    let curves = context.count("points of curves", &found, || {
+        curves::follow(&family, &question, &limbs, &mut || go_on())
+    });
+    context.check()?;
+    let cloud = cloud(study, &question, &models, context)?;
+    context.check()?;
+    Ok(Run {
+        study,
+        model,
+        question,
+        limbs,
+        views,
+        curves,
+        cloud,
+    })
+}
+
+/// The orbit that the branches begin with.
+fn first<F>(
+    family: &Stroboscopic<'_, F>,
+    model: &Model,
+    study: &Study,
+    question: &Question,
+    origin: Option<&Origin>,
+    control: &Control,
+) -> Result<Orbit, Failure>
+where
+    F: Fn(&[f64]) -> Result<System, String> + Sync,
+{
+    let (table, values) = (question.table, &question.start);
+    if let Some(origin) = origin {
+        let found = find_orbit(
+            family,
+            values,
+            &origin.places(model),
+            &NewtonOptions::default(),
+        );
+        return found.map_err(|error| {
+            Failure::computation(error).advise(
+                "the study must be near the one of the result: change fewer numbers at once",
+            )
+        });
+    }
+    let start = model.start(study.start.z, study.start.v);
+    let search = OrbitSearch {
+        period: (table.period > 0).then_some(table.period as usize),
+        transient: table.transient.into(),
+        segments: None,
+    };
+    orbit_of(family, model, values, &start, &search, control).map_err(|error| {
+        Failure::from(error)
+            .advise("[start], continue.transient and continue.period say where the search begins")
+    })
+}
+
+/// Long-term motions over the range, the state carried on both ways.
+fn cloud(
+    study: &Study,
+    question: &Question,
+    models: &Models,
+    context: &Context,
+) -> Result<Vec<SweepRow>, Failure> {
+    let control = context.control(study);
+    let along = question.along();
+    let (low, high) = (along.from.min(along.to), along.from.max(along.to));
+    let (transient, record) = CLOUD;
+    let plan = Sweep {
+        values: Sweep::linspace(low, high, question.table.cloud as usize),
+        passes: vec![Pass::Up, Pass::Down],
+        start: (study.start.z, study.start.v),
+        transient,
+        record,
+    };
+    let model_at = |value: f64| models.at(&question.at(value));
+    let work = || sweep(&plan, model_at, &control);
+    let rows = context.follow(plan.periods(), "periods", &control.done, work)?;
+    Ok(rows)
+}
+
+impl Answer for Run<'_> {
+    fn summary(&self) -> String {
+        summary::text(self, &Report::new(self))
+    }
+
+    fn document(&self, to: &mut dyn Write) -> io::Result<()> {
+        store::stream_json(to, &Report::new(self))
+    }
+
+    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
+        let report = Report::new(self);
+        tables::write(store, self, &report)?;
+        figures::write(store, self)
+    }
+}

@@ -1,0 +1,135 @@
+//! A labelled orbit of an earlier result, to begin with.
+
+use crate::failure::Failure;
+use saltus::model::Model;
+use saltus::orbits::Place;
+use saltus::study::{place, point};
+use saltus_config::{Law, Parameter, Study};
+use saltus_results::ResultsError;
+use serde::Deserialize;
+use std::fs;
+use std::path::Path;
+
+/// Name of the document in the folder of a result.
+const DOCUMENT: &str = "continue.json";
+
+/// Advice on what else to give.
+const FOLDER: &str = "--from takes a folder that `saltus continue --out` wrote";
+
+/// What a restart needs of the document.
+#[derive(Deserialize)]
+struct Document {
+    parameter: String,
+    special_points: Vec<Labelled>,
+}
+
+#[derive(Deserialize)]
+struct Labelled {
+    label: String,
+    kind: String,
+    orbit_value: f64,
+    state: Vec<State>,
+}
+
+#[derive(Deserialize)]
+struct State {
+    modes: Vec<usize>,
+    x: Vec<f64>,
+}
+
+/// The orbit with the model it is one of.
+pub(super) struct Origin {
+    study: Study,
+    model: Model,
+    parameter: Parameter,
+    value: f64,
+    places: Vec<Place>,
+}
+
+impl Origin {
+    /// The orbit `label` of the result in `folder`.
+    pub(super) fn read(folder: &Path, label: &str) -> Result<Self, Failure> {
+        let path = folder.join(DOCUMENT);
+        let text = fs::read_to_string(&path).map_err(|source| ResultsError::Io {
+            action: "read",
+            path: path.clone(),
+            source,
+        })?;
+        let damaged = |why: &dyn std::fmt::Display| {
+            Failure::work(format!("`{}` is damaged: {why}", path.display()), FOLDER)
+        };
+        let document: Document = serde_json::from_str(&text).map_err(|e| damaged(&e))?;
+        let study = saltus_config::load(folder.join("study.toml"), &[])?;
+        let known = document.special_points.as_slice();
+        let chosen = known.iter().find(|special| special.label == label);
+        let Some(chosen) = chosen else {
+            let labels: Vec<&str> = known.iter().map(|special| special.label.as_str()).collect();
+            let help = match labels.as_slice() {
+                [] => "it has no special points at all".to_owned(),
+                labels => format!("those found: {}", labels.join(", ")),
+            };
+            let message = format!("--at {label}: `{}` has no such point", path.display());
+            return Err(Failure::refused(message, help));
+        };
+        let parameter = Parameter::parse(&document.parameter)?;
+        let study = parameter.apply(&study, chosen.orbit_value)?;
+        let model = study.setup().model()?;
+        let fits = |state: &State| {
+            let modes = if study.contact.law == Law::Gap { 3 } else { 2 };
+            state.x.len() == model.free_states()
+                && state.modes.len() == study.jumper.len()
+                && state.modes.iter().all(|&mode| mode < modes)
+        };
+        if !chosen.state.iter().all(fits) {
+            return Err(damaged(&format!(
+                "the state of {label} is not one of its study"
+            )));
+        }
+        // where a branch meets that of half its period, the halves of its orbit are one
+        let halves = if chosen.kind == "HP" { 2 } else { 1 };
+        let states = &chosen.state[..chosen.state.len() / halves];
+        let place = |state: &State| Place {
+            modes: state.modes.clone(),
+            x: state.x.clone(),
+        };
+        Ok(Self {
+            study,
+            model,
+            parameter,
+            value: chosen.orbit_value,
+            places: states.iter().map(place).collect(),
+        })
+    }
+
+    /// `study` with the parameter of the result where the orbit is, if it has the same states.
+    pub(super) fn adopt(&self, study: &Study) -> Result<Study, Failure> {
+        let (before, now) = (self.study.setup(), study.setup());
+        let different = [
+            ("plate.modes or plate.basis", {
+                (&before.plate.modes, before.plate.basis) != (&now.plate.modes, now.plate.basis)
+            }),
+            ("plate.inertia", before.inertia != now.inertia),
+            ("contact.law", before.contact != now.contact),
+            (
+                "the number of people",
+                before.jumpers.len() != now.jumpers.len(),
+            ),
+        ];
+        if let Some((what, _)) = different.iter().find(|(_, differs)| *differs) {
+            return Err(Failure::refused(
+                format!("an orbit of the result is none of this study: {what} is not the same"),
+                "a restart may change numbers and ranges, not what the states are",
+            ));
+        }
+        Ok(self.parameter.apply(study, self.value)?)
+    }
+
+    /// Its places in the units of `model`.
+    pub(super) fn places(&self, model: &Model) -> Vec<Place> {
+        let here = |there: &Place| {
+            let point = point(&self.model, there);
+            place(model, &model.carry(&self.model, &point))
+        };
+        self.places.iter().map(here).collect()
+    }
+}

@@ -1,0 +1,36 @@
+//! The questions that a study file can ask, answered: a document, a summary in words, tables, figures and
+//! datasets. What the program writes to a folder and another front end keeps in memory is made here, once.
+//!
+//! No terminal and no arguments: [`Request`] is what is asked, [`Context`] who asks, [`Answer`] what was
+//! found, [`Store`] where its parts go.
+
+mod attractors;
+mod basins;
+mod context;
+mod continuation;
+mod describe;
+mod failure;
+mod frequencies;
+mod kinds;
+mod lyapunov;
+mod map;
+mod models;
+mod motion;
+mod orbit;
+mod per_jumper;
+mod plane;
+mod portrait;
+mod repeats;
+mod reproduce;
+mod request;
+mod simulate;
+mod status;
+mod store;
+mod sweep;
+mod words;
+
+pub use context::{Context, Keep, Stage, Unwatched, Watch};
+pub use describe::{describe, warnings};
+pub use failure::Failure;
+pub use request::{Answer, Labelled, Request};
+pub use store::{Fill, Folder, Rows, Store};

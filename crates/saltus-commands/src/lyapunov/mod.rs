@@ -1,0 +1,153 @@
+//! `saltus lyapunov`: how fast neighbours of the long-term motion part.
+
+mod figures;
+mod report;
+mod summary;
+mod tables;
+mod words;
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::repeats;
+use crate::request::Answer;
+use crate::status;
+use crate::store::{self, Store};
+use report::Report;
+use saltus::hybrid::{Point, Status};
+use saltus::model::Model;
+use saltus::orbits::{Criteria, Recurrence, Verdict, judge};
+use saltus::study::{Control, Growth, Measurement, StudyError, lyapunov, settle, simulate};
+use saltus_config::Study;
+use std::io::{self, Write};
+
+/// Forcing periods in which a repetition is looked for; those of up to half as many are seen.
+const SEEN: u64 = 128;
+
+/// What was found for a study.
+struct Run<'a> {
+    study: &'a Study,
+    model: Model,
+    how: Measurement,
+    growth: Growth,
+    verdict: Verdict,
+}
+
+pub(crate) fn ask<'a>(
+    study: &'a Study,
+    context: &Context,
+) -> Result<Box<dyn Answer + 'a>, Failure> {
+    let model = study.setup().model()?;
+    let how = question(study, &model)?;
+    let control = context.control(study);
+    model.check_step(&control.options)?;
+    Ok(Box::new(measure(study, model, how, &control, context)?))
+}
+
+/// What is asked, or why it makes no sense.
+fn question(study: &Study, model: &Model) -> Result<Measurement, Failure> {
+    let (table, states) = (&study.lyapunov, model.free_states());
+    let exponents = match table.exponents as usize {
+        0 => states,
+        asked if asked <= states => asked,
+        asked => {
+            let key = "lyapunov.exponents";
+            return Err(crate::words::too_many_exponents(key, asked, states, "all"));
+        }
+    };
+    Ok(Measurement {
+        exponents,
+        transient: table.transient.into(),
+        periods: table.periods.into(),
+        replicas: table.replicas as usize,
+    })
+}
+
+fn measure<'a>(
+    study: &'a Study,
+    model: Model,
+    how: Measurement,
+    control: &Control,
+    context: &Context,
+) -> Result<Run<'a>, Failure> {
+    let start = model.start(study.start.z, study.start.v);
+    let until = how.transient + how.periods;
+    let work = || {
+        let growth = lyapunov(&model, &start, &how, control)?;
+        let recurrence = recurrence(&model, &start, until, control)?;
+        Ok::<_, StudyError>((growth, recurrence))
+    };
+    let total = how.work() + until + SEEN;
+    let (growth, recurrence) = context.follow(total, "periods", &control.done, work)?;
+    context.check()?;
+    if growth.spectrum.iterates() == 0 {
+        return Err(Failure::computation(format!(
+            "the motion ended before an exponent could be measured: {}",
+            status::text(&growth.status, None)
+        )));
+    }
+    let criteria = Criteria {
+        // what the sum of all exponents is off by
+        noise: study.solver.tolerance,
+        ..Criteria::default()
+    };
+    let verdict = judge(&growth.spectrum, recurrence, &criteria);
+    Ok(Run {
+        study,
+        model,
+        how,
+        growth,
+        verdict,
+    })
+}
+
+/// Whether people and plate come back together, as they are `until` periods after the start.
+fn recurrence(
+    model: &Model,
+    start: &Point,
+    until: u64,
+    control: &Control,
+) -> Result<Recurrence, StudyError> {
+    let settled = settle(&[(model.clone(), start.clone())], until, 0, control)?;
+    let end = settled.into_iter().next().map(|settled| settled.end);
+    let run = simulate(model, end.as_ref().unwrap_or(start), SEEN, 0, 1, control)?;
+    if run.end.status != Status::Completed {
+        return Ok(Recurrence::Open);
+    }
+    let jumpers = model.setup().jumpers.len();
+    let amplitudes = model.setup().plate.modes.w.len();
+    let samples = |i: usize| match i.checked_sub(jumpers) {
+        None => run.section.iter().map(|at| (at.z[i], at.v[i])).unzip(),
+        Some(j) => run.section.iter().map(|at| (at.w[j], at.w[j])).unzip(),
+    };
+    let every = repeats::every(jumpers + amplitudes, run.section.len(), samples);
+    Ok(every.map_or(Recurrence::Open, |period| Recurrence::Recurs {
+        period,
+        rest: repeats::SAME,
+    }))
+}
+
+impl Answer for Run<'_> {
+    fn summary(&self) -> String {
+        summary::text(self, &Report::new(self))
+    }
+
+    fn document(&self, to: &mut dyn Write) -> io::Result<()> {
+        store::stream_json(to, &Report::new(self))
+    }
+
+    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
+        let convergence = self.growth.spectrum.convergence();
+        tables::write(store, self, &convergence)?;
+        store.figure("convergence", &figures::convergence(self, &convergence))
+    }
+
+    fn shortfall(&self) -> Option<Failure> {
+        let short = self.growth.status != Status::Completed;
+        short.then(|| {
+            Failure::computation(format!(
+                "not every replica was run to its end: {}",
+                Report::new(self).status_text
+            ))
+        })
+    }
+}

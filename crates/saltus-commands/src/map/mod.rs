@@ -1,0 +1,121 @@
+//! `saltus map`: long-term motion at each point of a plane of two parameters.
+
+mod figures;
+mod report;
+mod summary;
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::models::Models;
+use crate::plane::{self, Cell, Gather, Kept, Layers, Plane};
+use crate::request::Answer;
+use crate::store::{self, Store};
+use report::Report;
+use saltus_config::Study;
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Shown to those whose study has none.
+const EXAMPLE: &str = "\
+add a table that says what changes, such as
+
+  [map.x]
+  parameter = \"jumper.damping_ratio\"
+  from = 0.1
+  to = 0.5
+  count = 64
+
+  [map.y]
+  parameter = \"base.frequency_ratio\"
+  from = 0.85
+  to = 1.15
+  count = 64";
+
+/// What was found.
+struct Map<'a> {
+    study: &'a Study,
+    plane: Plane,
+    layers: Layers,
+    kept: Kept,
+}
+
+pub(crate) fn ask<'a>(
+    study: &'a Study,
+    context: &Context,
+) -> Result<Box<dyn Answer + 'a>, Failure> {
+    let plane = question(study)?;
+    let parameters = [&plane.y.parameter, &plane.x.parameter];
+    let models = Models::new(study, &parameters, study.options());
+    let start_at = |pixel| {
+        let (x, y) = plane.grid.at(pixel);
+        let model = models.at(&[y, x])?;
+        let start = model.start(study.start.z, study.start.v);
+        Ok((model, start))
+    };
+    let mut layers = Layers::new(study.jumper.len());
+    let kept = plane::run(("map", study, &plane), context, start_at, &mut layers)?;
+    if let Err(failure) = layers.refuse_if_all_lost() {
+        return kept.remove().and(Err(failure));
+    }
+    Ok(Box::new(Map {
+        study,
+        plane,
+        layers,
+        kept,
+    }))
+}
+
+/// What is asked, or what is missing in the question.
+fn question(study: &Study) -> Result<Plane, Failure> {
+    let table = study
+        .map
+        .as_ref()
+        .ok_or_else(|| Failure::refused("the study has no [map] table", EXAMPLE))?;
+    plane::need_people(study, "a map")?;
+    Plane::new(
+        &table.x,
+        &table.y,
+        table.transient,
+        table.record,
+        table.exponent,
+    )
+}
+
+impl Gather for Layers {
+    fn cell(&mut self, _: usize, cell: Cell) {
+        self.push(&cell);
+    }
+}
+
+impl Answer for Map<'_> {
+    fn summary(&self) -> String {
+        summary::text(&self.plane, &self.report())
+    }
+
+    fn document(&self, to: &mut dyn Write) -> io::Result<()> {
+        store::stream_json(to, &self.report())
+    }
+
+    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
+        let Self { plane, layers, .. } = self;
+        store.figure("map", &figures::periods(plane, layers))?;
+        store.figure("layers", &plane::layers_figure(plane, layers))?;
+        let title = "Attractors of a jumper on a plate over two parameters";
+        let dataset = plane::dataset(title, self.study, plane, layers.clone());
+        store.dataset("map.nc", dataset)
+    }
+
+    fn pieces(&self) -> Option<&Path> {
+        self.kept.path()
+    }
+
+    fn stored(self: Box<Self>) -> Result<(), Failure> {
+        self.kept.remove()
+    }
+}
+
+impl Map<'_> {
+    fn report(&self) -> Report<'_> {
+        Report::new(self.study, &self.plane, &self.layers)
+    }
+}

@@ -1,0 +1,131 @@
+//! The plane as a dataset for xarray and its like.
+
+use super::{Layers, Plane, PlaneAxis, Status};
+use crate::per_jumper::column;
+use crate::words::capitalized;
+use saltus_config::Study;
+use saltus_results::{Dataset, Variable};
+
+/// Coordinates, and all layers over (y, x).
+pub(crate) fn dataset(title: &str, study: &Study, plane: &Plane, layers: Layers) -> Dataset {
+    let (x, y) = (plane.x.variable(), plane.y.variable());
+    let over = [y.as_str(), x.as_str()];
+    let jumpers = study.jumper.len();
+    let status: Vec<u8> = layers.status.iter().map(|&status| status as u8).collect();
+    let meanings = Status::ALL.map(|status| (status as i32, status.name().replace('-', "_")));
+    let mut dataset = Dataset::new(title)
+        .attribute("source", format!("saltus {}", env!("CARGO_PKG_VERSION")))
+        .attribute("study", study.to_toml())
+        .coordinate(coordinate(&plane.y, &plane.grid.y))
+        .coordinate(coordinate(&plane.x, &plane.grid.x))
+        .variable(
+            Variable::new("period", &over, layers.period)
+                .long_name(
+                    "Period of the attractor in forcing periods, 0 where it has none up to 32",
+                )
+                .units("1"),
+        )
+        .variable(
+            Variable::new("status", &over, status)
+                .long_name("What became of the motion")
+                .flags(meanings),
+        )
+        .variable(
+            Variable::new("peak_acceleration", &over, layers.peak_acceleration)
+                .long_name(
+                    "Largest absolute vertical acceleration of the floor under the first jumper",
+                )
+                .units("m s-2"),
+        );
+    let exponents = [
+        (
+            "exponent",
+            "Largest Lyapunov exponent per forcing period, where it says what the motion is",
+            layers.exponent,
+        ),
+        (
+            "exponent_error",
+            "Standard error of exponent",
+            layers.exponent_error,
+        ),
+    ];
+    for (name, long_name, values) in exponents {
+        dataset = dataset.variable(
+            Variable::new(name, &over, values)
+                .long_name(long_name)
+                .units("1"),
+        );
+    }
+    let ratios = layers.contact_ratio.into_iter().zip(layers.peak_reaction);
+    for (jumper, (contact, reaction)) in ratios.enumerate() {
+        let contact = Variable::new(column("contact_ratio", jumper, jumpers), &over, contact);
+        let reaction = Variable::new(column("peak_reaction", jumper, jumpers), &over, reaction);
+        dataset = dataset
+            .variable(
+                contact
+                    .long_name("Part of the time on the floor")
+                    .units("1"),
+            )
+            .variable(
+                reaction
+                    .long_name("Largest plate reaction force over the jumper's weight")
+                    .units("1"),
+            );
+    }
+    let run: Vec<i32> = layers
+        .periods_run
+        .iter()
+        .map(|&n| i32::try_from(n).unwrap_or(i32::MAX))
+        .collect();
+    dataset.variable(
+        Variable::new("periods_run", &over, run)
+            .long_name("Forcing periods computed")
+            .units("1"),
+    )
+}
+
+fn coordinate(axis: &PlaneAxis, values: &[f64]) -> Variable {
+    let label = axis.parameter.label();
+    let unit = format!(" ({})", axis.parameter.unit());
+    let name = label.strip_suffix(&unit).unwrap_or(&label);
+    Variable::coordinate(axis.variable(), values.to_vec())
+        .long_name(capitalized(name))
+        .units(units(axis.parameter.unit()))
+        .attribute("study_key", axis.parameter.key())
+}
+
+/// A unit as UDUNITS spells it.
+fn units(unit: &str) -> String {
+    match unit {
+        "-" => "1".to_owned(),
+        other => other
+            .replace('²', "2")
+            .replace('³', "3")
+            .split_once('/')
+            .map_or(other.to_owned(), |(above, below)| {
+                let digits = below.trim_start_matches(char::is_alphabetic);
+                let power = if digits.is_empty() { "1" } else { digits };
+                let name = below.trim_end_matches(char::is_numeric);
+                format!("{above} {name}-{power}")
+            }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::units;
+
+    #[test]
+    fn units_are_spelt_for_udunits() {
+        for (ours, theirs) in [
+            ("-", "1"),
+            ("m", "m"),
+            ("Hz", "Hz"),
+            ("N/m", "N m-1"),
+            ("kg/m³", "kg m-3"),
+            ("m/s²", "m s-2"),
+        ] {
+            assert_eq!(units(ours), theirs);
+        }
+    }
+}

@@ -1,0 +1,256 @@
+//! Why the transitions of Fig. 2 are where they are: branches, special points, exponents.
+
+use saltus::physics::{ContactLaw, FrequencyReference};
+use saltus::study::paper::{PanelBranches, PanelExponents, Transition};
+use saltus_results::{Axis, Branches, Colour, Curves, Figure, Panel, Value};
+
+use super::Results;
+use super::figures::{DAMPING, HEIGHT, find, points};
+use super::page::Album;
+use super::tables::header;
+use crate::failure::Failure;
+use crate::kinds;
+
+pub(super) fn write(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
+    transitions_csv(album, results)?;
+    branches_csv(album, results)?;
+    exponents_csv(album, results)?;
+    album.section("Why the transitions are where they are");
+    album.say(&[
+        "Sweeps see stable motions only. Here the periodic orbits themselves are followed, stable or not, with every \
+         point at which one is born, dies or changes its stability or the order of its switches. Each such point was \
+         found twice: by continuation with the tangent flow, and from orbits at given damping ratios with derivatives \
+         by differences.",
+    ]);
+    let caption = "Periodic orbits behind Fig. 2 over the damping ratio: solid where stable, dashed where not; grey, \
+                   what the sweeps show.";
+    let data = [
+        ("branches", "branches.csv"),
+        ("special points", "transitions.csv"),
+    ];
+    album.show("fig2-branches", &figure(results), caption, &data)?;
+    let rows: Vec<Vec<String>> = results.branches.iter().flat_map(rows).collect();
+    let columns = [
+        "Ω/ω_h",
+        "",
+        "What",
+        "Period",
+        "ζ_h",
+        "Second method",
+        "Switches",
+    ];
+    album.with(|page| {
+        page.subsection("Special points that sweeps meet: on one side at least the orbit is stable")
+            .table(&columns, rows)
+    });
+    let others = results.branches.iter().flat_map(|panel| &panel.transitions);
+    let others = others.filter(|transition| !transition.seen).count();
+    album.say(&[&format!(
+        "T: take-off, L: landing; a bar separates forcing periods. {others} more special points lie on parts that are \
+         unstable on both sides; they are in transitions.csv."
+    )]);
+    let caption = "Largest Lyapunov exponent of the motions of the rising sweeps, with its standard error: positive in \
+                   chaos, zero at each bifurcation of a cycle, negative on stable cycles.";
+    album.show(
+        "fig2-exponents",
+        &exponents(results),
+        caption,
+        &[("data", "exponents.csv")],
+    )
+}
+
+fn rows(panel: &PanelBranches) -> Vec<Vec<String>> {
+    let seen = panel
+        .transitions
+        .iter()
+        .filter(|transition| transition.seen);
+    let row = |transition: &Transition| {
+        let second = transition
+            .second
+            .map_or("none near".into(), |zeta| format!("{zeta:.10}"));
+        vec![
+            format!("{:.1}", panel.ratio),
+            transition.label.clone(),
+            kinds::name(&transition.kind).into(),
+            format!("{}T", transition.period),
+            format!("{:.10}", transition.damping_ratio),
+            second,
+            transition.sequence.clone(),
+        ]
+    };
+    seen.map(row).collect()
+}
+
+fn figure(results: &Results) -> Figure {
+    let panels = results
+        .branches
+        .iter()
+        .map(|panel| Panel::from(diagram(results, panel)));
+    Figure::grid(1, panels)
+        .title("Periodic orbits behind Fig. 2")
+        .plot_size(900.0, 330.0)
+}
+
+fn diagram(results: &Results, panel: &PanelBranches) -> Branches {
+    let (law, reference) = (ContactLaw::ReactionForce, FrequencyReference::Occupied);
+    let title = format!("Ω = {:.1} ω_h", panel.ratio);
+    let mut diagram = Branches::new(title, Axis::new(DAMPING), Axis::new(HEIGHT));
+    if let Some(cloud) = find(results, law, reference, panel.ratio) {
+        let (mut x, mut y) = points(cloud, 0);
+        let (more_x, more_y) = points(cloud, 1);
+        x.extend(more_x);
+        y.extend(more_y);
+        diagram = diagram.cloud("Sweeps both ways", x, y);
+    }
+    for limb in &panel.limbs {
+        let label = format!("Period {}", limb.period);
+        let (x, curves) = (limb.damping_ratio.clone(), limb.heights.clone());
+        diagram = diagram
+            .branch(label, x, &limb.stable, curves)
+            .colour(colour(limb.period));
+    }
+    let seen = panel
+        .transitions
+        .iter()
+        .filter(|transition| transition.seen);
+    seen.fold(diagram, |diagram, transition| {
+        let symbol = kinds::symbol(&transition.kind);
+        let (zeta, heights) = (transition.damping_ratio, transition.heights.clone());
+        diagram.special(symbol, &transition.label, zeta, heights)
+    })
+}
+
+/// The same for a period in all panels, which share a legend.
+fn colour(period: usize) -> Colour {
+    let known = [1, 2, 4, 8, 6, 12, 24];
+    let place = known.iter().position(|&other| other == period);
+    Colour::CURVES[place.unwrap_or(known.len()) % Colour::CURVES.len()]
+}
+
+fn exponents(results: &Results) -> Figure {
+    let panel = |panel: &PanelExponents| {
+        let title = format!("Ω = {:.1} ω_h", panel.ratio);
+        let axis = Axis::new("Exponent λ (1/period)");
+        let zeta: Vec<f64> = panel.values.iter().map(|(zeta, _)| *zeta).collect();
+        let value = |side: f64| -> Vec<f64> {
+            let at = panel.values.iter();
+            at.map(|(_, e)| e.per_iterate + side * e.standard_error)
+                .collect()
+        };
+        let curves = Curves::new(title, Axis::new(DAMPING), axis)
+            .line("λ of the rising sweep", zeta, value(0.0))
+            .band("± standard error", value(-1.0), value(1.0))
+            .level("Zero", 0.0);
+        Panel::from(curves)
+    };
+    Figure::grid(1, results.exponents.iter().map(panel))
+        .title("Lyapunov exponents along Fig. 2")
+        .plot_size(900.0, 240.0)
+}
+
+fn transitions_csv(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
+    let rows = results.branches.iter().flat_map(|panel| {
+        panel.transitions.iter().map(|transition| {
+            vec![
+                Value::from(panel.ratio),
+                transition.label.clone().into(),
+                kinds::name(&transition.kind).into(),
+                (transition.period as u32).into(),
+                transition.damping_ratio.into(),
+                transition.second.into(),
+                if transition.seen { "yes" } else { "no" }.into(),
+                transition.sequence.clone().into(),
+            ]
+        })
+    });
+    let settings = [
+        ("damping_ratio", "by continuation with the tangent flow"),
+        (
+            "second",
+            "from orbits at given damping ratios, derivatives by differences; empty: not found so",
+        ),
+        ("seen", "whether the orbit is stable on one side at least"),
+    ];
+    let names = [
+        "frequency_ratio",
+        "label",
+        "kind",
+        "period",
+        "damping_ratio",
+        "second",
+        "seen",
+        "switches",
+    ];
+    album
+        .folder
+        .table("transitions.csv", &settings, &header(&names), rows)
+}
+
+fn branches_csv(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
+    let rows = results.branches.iter().flat_map(|panel| {
+        panel
+            .limbs
+            .iter()
+            .enumerate()
+            .flat_map(move |(number, limb)| {
+                (0..limb.damping_ratio.len()).flat_map(move |point| {
+                    limb.heights
+                        .iter()
+                        .enumerate()
+                        .map(move |(place, heights)| {
+                            vec![
+                                Value::from(panel.ratio),
+                                (number as u32).into(),
+                                limb.origin.clone().unwrap_or_default().into(),
+                                (point as u32).into(),
+                                limb.damping_ratio[point].into(),
+                                if limb.stable[point] { "yes" } else { "no" }.into(),
+                                (place as u32).into(),
+                                heights[point].into(),
+                            ]
+                        })
+                })
+            })
+    });
+    let settings = [(
+        "origin",
+        "label of the special point where the branch begins; empty: followed from a motion",
+    )];
+    let names = [
+        "frequency_ratio",
+        "branch",
+        "origin",
+        "point",
+        "damping_ratio",
+        "stable",
+        "place",
+        "z_eta",
+    ];
+    album
+        .folder
+        .table("branches.csv", &settings, &header(&names), rows)
+}
+
+fn exponents_csv(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
+    let rows = results.exponents.iter().flat_map(|panel| {
+        panel.values.iter().map(|(zeta, exponent)| {
+            vec![
+                Value::from(panel.ratio),
+                (*zeta).into(),
+                exponent.per_iterate.into(),
+                exponent.standard_error.into(),
+            ]
+        })
+    });
+    let periods = results.effort.panel_exponent_periods.to_string();
+    let settings = [("periods", periods.as_str())];
+    let names = [
+        "frequency_ratio",
+        "damping_ratio",
+        "exponent_per_period",
+        "standard_error",
+    ];
+    album
+        .folder
+        .table("exponents.csv", &settings, &header(&names), rows)
+}

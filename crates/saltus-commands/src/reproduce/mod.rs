@@ -1,0 +1,134 @@
+//! `saltus reproduce`: the paper, figure by figure, with our numbers beside its words.
+
+mod branches;
+mod figures;
+mod page;
+mod report;
+mod tables;
+
+use std::io::{self, Write};
+use std::sync::Arc;
+
+use saltus::hybrid::Method;
+use saltus::physics::FrequencyReference::{Free, Occupied};
+use saltus::study::paper::{
+    self, CaseResult, Diagram, Effort, InertiaComparison, Misprint, PanelBranches, PanelExponents,
+};
+use saltus::study::{Control, StudyError};
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::request::Answer;
+use crate::store::{self, Store};
+use report::Report;
+
+/// Everything computed.
+struct Results {
+    effort: Effort,
+    diagrams: Vec<Diagram>,
+    branches: Vec<PanelBranches>,
+    exponents: Vec<PanelExponents>,
+    cases: Vec<CaseResult>,
+    facts: Vec<paper::Fact>,
+    misprints: Vec<Misprint>,
+    inertia: InertiaComparison,
+}
+
+pub(crate) fn ask<'a>(quick: bool, context: &Context) -> Result<Box<dyn Answer + 'a>, Failure> {
+    Ok(Box::new(compute(quick, context)?))
+}
+
+impl Answer for Results {
+    fn summary(&self) -> String {
+        Report::new(self).text()
+    }
+
+    fn document(&self, to: &mut dyn Write) -> io::Result<()> {
+        store::stream_json(to, &Report::new(self))
+    }
+
+    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
+        page::write(store, self, &Report::new(self))
+    }
+}
+
+/// Taylor series for the diagrams: an error near 1e-6 after 20 periods, a hundredth of a pixel, and
+/// the cheapest there is (`cargo bench -p saltus`). The named motions use the default, 1e-10.
+const DIAGRAMS: Method = Method::Taylor {
+    tolerance: 1e-7,
+    order: 12,
+};
+
+fn compute(quick: bool, context: &Context) -> Result<Results, Failure> {
+    let effort = if quick {
+        Effort::quick()
+    } else {
+        Effort::full()
+    };
+    let control = Control {
+        threads: context.threads,
+        stop: Arc::clone(&context.stop),
+        ..Control::default()
+    };
+    let step = Step {
+        context,
+        control: &control,
+    };
+    let mut fast = control.clone();
+    fast.options.method = DIAGRAMS;
+    let diagrams = step.run("Fig. 2", effort.diagram_periods(), || {
+        paper::diagrams(&effort, &fast)
+    })?;
+    let case_periods = effort.case_periods();
+    let cases = step.run("Fig. 3", case_periods, || {
+        paper::run_cases(Occupied, &effort, &control)
+    })?;
+    let free = step.run("Fig. 3, free", case_periods, || {
+        paper::run_cases(Free, &effort, &control)
+    })?;
+    let exponents = step.run("Exponents", effort.panel_periods(), || {
+        paper::panel_exponents(&diagrams, &effort, &fast)
+    })?;
+    let branches = step.run("Branches", 0, || paper::panel_branches(&effort, &control))?;
+    let facts = step.run("Facts", 0, || {
+        paper::facts(&diagrams, &cases, &free, &branches, &fast)
+    })?;
+    let misprints = step.run("Misprints", 0, || paper::misprints(&control))?;
+    let inertia = step.run("Full model", effort.inertia_periods(), || {
+        paper::compare_inertia(&effort, &control)
+    })?;
+    Ok(Results {
+        effort,
+        diagrams,
+        branches,
+        exponents,
+        cases,
+        facts,
+        misprints,
+        inertia,
+    })
+}
+
+/// One stage of the work with its progress.
+struct Step<'a> {
+    context: &'a Context<'a>,
+    control: &'a Control,
+}
+
+impl Step<'_> {
+    fn run<T>(
+        &self,
+        what: &str,
+        periods: u64,
+        work: impl FnOnce() -> Result<T, StudyError>,
+    ) -> Result<T, Failure> {
+        self.control
+            .done
+            .store(0, std::sync::atomic::Ordering::Relaxed);
+        let result = self
+            .context
+            .follow(periods, what, &self.control.done, work)?;
+        self.context.check()?;
+        Ok(result)
+    }
+}

@@ -1,0 +1,284 @@
+//! The result folder: figures, tables and the page that shows them.
+
+use saltus::physics::FrequencyReference::{Free, Occupied};
+use saltus::study::paper::Verdict;
+use saltus_results::{Fact, Figure, FigureBlock, Image, Page, Verdict as Badge};
+
+use super::report::{RegimeRow, Report};
+use super::{Results, branches, figures, tables};
+use crate::failure::Failure;
+use crate::store::Store;
+
+/// Fills the folder.
+pub(super) fn write(
+    folder: &mut dyn Store,
+    results: &Results,
+    report: &Report,
+) -> Result<(), Failure> {
+    tables::write(folder, results, report)?;
+    folder.text("facts.md", &report.markdown())?;
+    let mut album = Album {
+        folder,
+        page: Page::new("Dias & Del Prado, reproduced"),
+    };
+    album.say(&[
+        "A person on a vibrating plate jumps, lands and jumps again: what can the motion do in the long \
+         run? This page repeats every figure and statement of Dias & Del Prado, Human-Structure \
+         Interaction during jumping on Rectangular Plates, with our numbers beside their words.",
+    ]);
+    statements(&mut album, results, report);
+    fig2(&mut album, results)?;
+    branches::write(&mut album, results)?;
+    fig3(&mut album, results)?;
+    ambiguities(&mut album, results, report)?;
+    beyond(&mut album, results, report)?;
+    method(&mut album, results);
+    let Album { folder, page } = album;
+    folder.text("index.html", &page.render())
+}
+
+/// A page that is being filled together with its folder.
+pub(super) struct Album<'a> {
+    pub(super) folder: &'a mut dyn Store,
+    page: Page,
+}
+
+impl Album<'_> {
+    pub(super) fn with(&mut self, change: impl FnOnce(Page) -> Page) {
+        let page = std::mem::replace(&mut self.page, Page::new(""));
+        self.page = change(page);
+    }
+
+    pub(super) fn section(&mut self, title: &str) {
+        self.with(|page| page.section(title));
+    }
+
+    pub(super) fn say(&mut self, paragraphs: &[&str]) {
+        for text in paragraphs {
+            self.with(|page| page.paragraph(text));
+        }
+    }
+
+    /// Puts a figure into the folder (SVG, PNG) and onto the page.
+    pub(super) fn show(
+        &mut self,
+        name: &str,
+        figure: &Figure,
+        caption: &str,
+        data: &[(&str, &str)],
+    ) -> Result<(), Failure> {
+        self.folder.figure(name, figure)?;
+        let (svg, png) = (format!("{name}.svg"), format!("{name}.png"));
+        let mut files = vec![("SVG", svg.as_str()), ("PNG", png.as_str())];
+        files.extend(data);
+        let text = figure.svg();
+        self.with(|page| {
+            page.figure(&FigureBlock {
+                caption,
+                alternative: caption,
+                image: Image::Svg(&text),
+                files: &files,
+            })
+        });
+        Ok(())
+    }
+}
+
+fn statements(album: &mut Album<'_>, results: &Results, report: &Report) {
+    album.section("Statement by statement");
+    let facts: Vec<Fact> = results
+        .facts
+        .iter()
+        .zip(&report.facts)
+        .map(|(fact, row)| Fact {
+            name: row.id.into(),
+            claim: row.claim.clone(),
+            value: row.value.clone(),
+            verdict: match fact.verdict {
+                Verdict::Reproduced => Badge::Reproduced,
+                Verdict::Departure => Badge::Departure,
+                Verdict::NotReproduced => Badge::NotReproduced,
+            },
+            reading: row.reading.clone(),
+        })
+        .collect();
+    album.with(|page| {
+        page.facts(&facts)
+            .files([("facts.json", "facts.json"), ("facts.md", "facts.md")])
+    });
+}
+
+fn fig2(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
+    album.section("Figure 2: bifurcation diagrams");
+    let effort = &results.effort;
+    let caption = format!(
+        "Height of the body once per forcing period against its damping ratio, {} values, {} periods kept \
+         after {}. Rising and falling sweeps carry the state on; the other colours start anew at each value \
+         with the plate at rest. Where colours part, attractors coexist.",
+        effort.values, effort.record, effort.transient
+    );
+    let data = [
+        ("a", "fig2a.csv"),
+        ("b", "fig2b.csv"),
+        ("c", "fig2c.csv"),
+        ("regimes", "regimes.csv"),
+    ];
+    album.show("fig2", &figures::fig2(results, Occupied), &caption, &data)
+}
+
+fn fig3(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
+    album.section("Figure 3: the named motions");
+    album.say(&[
+        "The paper gives the damping ratio of (e), (f) and (g); the others are chosen inside the regime it \
+         names: 0.15 and 0.35 in (a) and (b), 0.12 and 0.21 in (c) and (d), 0.45 in (h).",
+    ]);
+    let caption = "Phase portraits of the settled motion, flights in another colour, with the stroboscopic \
+                   points. λ is the largest Lyapunov exponent where the points do not repeat.";
+    album.show(
+        "fig3",
+        &figures::portraits(results),
+        caption,
+        &[("data", "fig3.csv")],
+    )?;
+    let rows: Vec<Vec<String>> = results
+        .cases
+        .iter()
+        .map(|result| {
+            vec![
+                format!("3{}", result.case.tag),
+                format!("{:.1}", result.case.ratio),
+                format!(
+                    "{:.2}{}",
+                    result.case.damping_ratio,
+                    if result.case.given { "" } else { " (ours)" }
+                ),
+                result.case.paper.into(),
+                result.words(),
+                format!("{:.3}", result.contact_ratio),
+                format!("{:.2}", result.peak_force),
+            ]
+        })
+        .collect();
+    let header = [
+        "Panel",
+        "Ω/ω_h",
+        "ζ_h",
+        "Paper",
+        "Ours",
+        "Contact ratio",
+        "Peak PRF/(m_h g)",
+    ];
+    album.with(|page| page.table(&header, rows));
+    let caption = "The force between feet and plate over eight forcing periods, in body weights. Shaded: in \
+                   flight, where it is zero.";
+    album.show("fig3-forces", &figures::forces(results), caption, &[])
+}
+
+fn ambiguities(album: &mut Album<'_>, results: &Results, report: &Report) -> Result<(), Failure> {
+    album.section("Where the paper is ambiguous");
+    album.say(&[
+        "The paper drives the plate at 0.9, 1.0 and 1.1 ω_h without saying which ω_h: that of the body \
+         on the flexible plate (occupied, 2.5373 Hz) or on rigid ground (free, 2.4794 Hz). The figure above \
+         takes the first; here is the second.",
+    ]);
+    let caption = "Fig. 2 again, with ω_h the body's frequency on rigid ground: the thresholds move, and \
+                   what the paper says at 0.32 and 0.36 no longer holds.";
+    album.show(
+        "fig2-free",
+        &figures::fig2(results, Free),
+        caption,
+        &[("regimes", "regimes.csv")],
+    )?;
+    album.with(|page| {
+        let rows = report
+            .misprints
+            .iter()
+            .map(|m| [&m.place, &m.printed, &m.used, &m.effect].map(String::as_str));
+        page.subsection("Misprints and gaps, with the size of their effect")
+            .table(&["Where", "Printed", "Used here", "Effect"], rows)
+    });
+    Ok(())
+}
+
+fn beyond(album: &mut Album<'_>, results: &Results, report: &Report) -> Result<(), Failure> {
+    album.section("Beyond the paper");
+    album.say(&[
+        "When do feet touch the floor? The paper lets contact begin as soon as the reaction force would be \
+         positive (reaction-force), which with a damped leg is while the foot is still in the air. A leg that \
+         returns to its natural length in flight (gap), or one that relaxes towards it (relaxing-leg), lands \
+         later.",
+    ]);
+    let caption =
+        "Fig. 2 under three contact laws. The sequences are the same; the thresholds shift.";
+    album.show(
+        "fig2-laws",
+        &figures::laws(results),
+        caption,
+        &[("regimes", "regimes.csv")],
+    )?;
+    let rows: Vec<Vec<String>> = law_rows(&report.regimes);
+    album.with(|page| {
+        page.subsection("Main thresholds of the up-sweeps under each law")
+            .table(
+                &["Ω/ω_h", "Law", "Longest stretches of one period (ζ_h)"],
+                rows,
+            )
+    });
+    let i = &report.full_against_condensed;
+    let caption = format!(
+        "All 17 degrees of freedom (in-plane modes at 253 to 1344 Hz) against 5, the in-plane motion following \
+         statically. Of {} motions from the same start {} end on the same periodic attractor, at most {:.1e} η \
+         apart. The others are chaotic, or a chaotic transient took them to another attractor; all contact \
+         ratios differ by at most {:.3}.",
+        i.compared, i.periodic, i.largest_difference_eta, i.largest_contact_ratio_difference
+    );
+    let data = [("data", "full-condensed.csv")];
+    album.show(
+        "full-condensed",
+        &figures::inertia(results),
+        &caption,
+        &data,
+    )
+}
+
+/// For each law the stretches of one period that span at least 0.02 in the up-sweep.
+fn law_rows(regimes: &[RegimeRow]) -> Vec<Vec<String>> {
+    let mut out: Vec<Vec<String>> = Vec::new();
+    for regime in regimes
+        .iter()
+        .filter(|r| r.sweep == "up" && r.reference == "occupied")
+    {
+        let Some(n) = regime.period.filter(|_| regime.to - regime.from >= 0.02) else {
+            continue;
+        };
+        let stretch = format!("{n}T {:.3}-{:.3}", regime.from, regime.to);
+        let ratio = format!("{:.1}", regime.frequency_ratio);
+        match out
+            .last_mut()
+            .filter(|row| row[0] == ratio && row[1] == regime.law)
+        {
+            Some(row) => row[2] += &format!(", {stretch}"),
+            None => out.push(vec![ratio, regime.law.into(), stretch]),
+        }
+    }
+    out
+}
+
+fn method(album: &mut Album<'_>, results: &Results) {
+    album.section("How it was computed");
+    let effort = &results.effort;
+    let solver = "Taylor series with adaptive steps; take-off and touch-down located to rounding. The diagrams \
+                  allow 1e-7 of the plate thickness per step, the named motions 1e-10. Figures 2 and 3 use the \
+                  condensed model.";
+    let exponents = format!(
+        "Exponents: the tangent flow over {} periods, standard errors from batches long enough to be independent.",
+        effort.exponent_periods
+    );
+    let version = format!("saltus {}", env!("CARGO_PKG_VERSION"));
+    album.with(|page| {
+        page.list([solver, exponents.as_str(), version.as_str()])
+            .paragraph("Repeat it, or change it:")
+            .code("saltus reproduce\nsaltus init paper --out paper.toml\nsaltus sweep paper.toml --out sweep")
+            .files([("study.toml (the paper's case)", "study.toml")])
+    });
+}

@@ -1,0 +1,172 @@
+//! What can be asked of a study, and what every answer can tell.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::store::Store;
+use crate::{
+    attractors, basins, continuation, frequencies, lyapunov, map, orbit, reproduce, simulate, sweep,
+};
+use saltus_config::Study;
+use serde::{Deserialize, Serialize};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// A question. What it is about stands in the study, but for what is said here.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "command", rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Request {
+    /// Natural frequencies.
+    Frequencies,
+    /// One motion.
+    Simulate,
+    /// Long-term motion while a parameter changes.
+    Sweep,
+    /// Long-term motion over two parameters.
+    Map,
+    /// Which long-term motion each first state leads to.
+    Basins {
+        /// Number the attractors as along the sweep of `[attractors]`.
+        #[serde(rename = "match", default)]
+        matched: bool,
+    },
+    /// A periodic orbit.
+    Orbit,
+    /// Branches of periodic orbits.
+    Continue {
+        /// Begin at a labelled orbit of an earlier result.
+        #[serde(default)]
+        origin: Option<Labelled>,
+    },
+    /// Lyapunov exponents.
+    Lyapunov,
+    /// All coexisting long-term motions.
+    Attractors,
+    /// Every figure and statement of Dias & Del Prado; the study is theirs.
+    Reproduce {
+        /// Fewer parameter values and periods.
+        #[serde(default)]
+        quick: bool,
+    },
+}
+
+/// An orbit of an earlier result.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Labelled {
+    /// Folder of the result.
+    pub from: PathBuf,
+    /// Label of a special point, such as `PD1`.
+    pub at: String,
+}
+
+/// What was found.
+pub trait Answer {
+    /// What it says to people.
+    fn summary(&self) -> String;
+
+    /// Writes the JSON document.
+    ///
+    /// # Errors
+    /// Those of `to`.
+    fn document(&self, to: &mut dyn Write) -> io::Result<()>;
+
+    /// Hands over everything else: texts, tables, figures, datasets.
+    ///
+    /// # Errors
+    /// [`Failure`] where the store refuses or a figure cannot be drawn.
+    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure>;
+
+    /// Why it is not all that was asked for, if so: a motion that ended early, as far as it came.
+    fn shortfall(&self) -> Option<Failure> {
+        None
+    }
+
+    /// The folder with pieces that were kept until the answer is stored, if there is one.
+    fn pieces(&self) -> Option<&Path> {
+        None
+    }
+
+    /// Removes the pieces: the answer is stored.
+    ///
+    /// # Errors
+    /// [`Failure::Results`] if they cannot be removed.
+    fn stored(self: Box<Self>) -> Result<(), Failure> {
+        Ok(())
+    }
+}
+
+impl Request {
+    /// Name of the command; the JSON document has it too.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Frequencies => "frequencies",
+            Self::Simulate => "simulate",
+            Self::Sweep => "sweep",
+            Self::Map => "map",
+            Self::Basins { .. } => "basins",
+            Self::Orbit => "orbit",
+            Self::Continue { .. } => "continue",
+            Self::Lyapunov => "lyapunov",
+            Self::Attractors => "attractors",
+            Self::Reproduce { .. } => "reproduce",
+        }
+    }
+
+    /// Name of the file with the JSON document.
+    pub fn document(&self) -> String {
+        match self {
+            Self::Reproduce { .. } => "facts.json".to_owned(),
+            other => format!("{}.json", other.name()),
+        }
+    }
+
+    /// The study that this question is about, given the one at hand: a branch that begins at an orbit of
+    /// an earlier result begins at its value of the parameter, and the paper's figures are of its study.
+    ///
+    /// # Errors
+    /// [`Failure`] if the earlier result cannot be read or does not fit the study.
+    pub fn study(&self, study: &Study) -> Result<Study, Failure> {
+        match self {
+            Self::Continue {
+                origin: Some(origin),
+            } => continuation::adopted(origin, study),
+            Self::Reproduce { .. } => Ok(Study::paper()),
+            _ => Ok(study.clone()),
+        }
+    }
+
+    /// Computes the answer. `study` is what [`Self::study`] gives.
+    ///
+    /// # Errors
+    /// [`Failure`] if the study does not fit the question, the computation does not get through, or it was
+    /// stopped.
+    pub fn ask<'a>(
+        &'a self,
+        study: &'a Study,
+        context: &Context,
+    ) -> Result<Box<dyn Answer + 'a>, Failure> {
+        match self {
+            Self::Frequencies => frequencies::ask(study),
+            Self::Simulate => simulate::ask(study, context),
+            Self::Sweep => sweep::ask(study, context),
+            Self::Map => map::ask(study, context),
+            Self::Basins { matched } => basins::ask(study, *matched, context),
+            Self::Orbit => orbit::ask(study, context),
+            Self::Continue { origin } => continuation::ask(study, origin.as_ref(), context),
+            Self::Lyapunov => lyapunov::ask(study, context),
+            Self::Attractors => attractors::ask(study, context),
+            Self::Reproduce { quick } => reproduce::ask(*quick, context),
+        }
+    }
+}
+
+impl dyn Answer + '_ {
+    /// Hands everything to `store`, the document of `request` first.
+    ///
+    /// # Errors
+    /// [`Failure`] where the store refuses or a figure cannot be drawn.
+    pub fn store(&self, request: &Request, store: &mut dyn Store) -> Result<(), Failure> {
+        store.put_text(&request.document(), &mut |file| self.document(file))?;
+        self.fill(store)
+    }
+}

@@ -1,0 +1,102 @@
+//! `saltus simulate`: the motion, once per forcing period.
+
+mod figures;
+mod flights;
+mod report;
+mod summary;
+mod tables;
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::request::Answer;
+use crate::store::{self, Store};
+use report::Report;
+use saltus::hybrid::Status;
+use saltus::model::Model;
+use saltus::study::Trajectory;
+use saltus_config::Study;
+use std::io::{self, Write};
+
+/// Periods of the time history at most: what a figure can show, and little memory however long the run.
+const HISTORY: u32 = 20;
+
+/// Points of the time history per period: a peak of the force is met to about 1e-4.
+const POINTS: u32 = 400;
+
+/// A run with what it ran.
+struct Run<'a> {
+    study: &'a Study,
+    model: Model,
+    trajectory: Trajectory,
+}
+
+pub(crate) fn ask<'a>(
+    study: &'a Study,
+    context: &Context,
+) -> Result<Box<dyn Answer + 'a>, Failure> {
+    Ok(Box::new(integrate(study, context)?))
+}
+
+fn integrate<'a>(study: &'a Study, context: &Context) -> Result<Run<'a>, Failure> {
+    let control = context.control(study);
+    let model = study.setup().model_with_energy()?;
+    let start = model.start(study.start.z, study.start.v);
+    let periods = study.simulate.periods;
+    let history = HISTORY.min(periods - study.simulate.transient.min(periods));
+    let work = || {
+        let (periods, history) = (periods.into(), history.into());
+        saltus::study::simulate(&model, &start, periods, history, POINTS, &control)
+    };
+    let trajectory = context.follow(periods.into(), "periods", &control.done, work)?;
+    context.check()?;
+    Ok(Run {
+        study,
+        model,
+        trajectory,
+    })
+}
+
+impl Answer for Run<'_> {
+    fn summary(&self) -> String {
+        summary::text(self, &Report::new(self))
+    }
+
+    fn document(&self, to: &mut dyn Write) -> io::Result<()> {
+        store::stream_json(to, &Report::new(self))
+    }
+
+    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
+        let report = Report::new(self);
+        tables::write(store, self, &report)?;
+        figures::write(store, self)
+    }
+
+    fn shortfall(&self) -> Option<Failure> {
+        let end = &self.trajectory.end;
+        let short = end.status != Status::Completed;
+        short.then(|| {
+            Failure::computation(format!(
+                "the run ended in forcing period {} of {}: {}",
+                end.periods + 1,
+                self.study.simulate.periods,
+                Report::new(self).status_text
+            ))
+        })
+    }
+}
+
+impl Run<'_> {
+    fn jumpers(&self) -> usize {
+        self.study.jumper.len()
+    }
+
+    /// First periods that figures and ratios leave out.
+    fn transient(&self) -> usize {
+        self.study.simulate.transient as usize
+    }
+
+    /// Seconds at the end of period `index`, counted from 0.
+    fn section_time(&self, index: usize) -> f64 {
+        (index + 1) as f64 * self.model.scales().period()
+    }
+}

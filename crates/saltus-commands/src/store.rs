@@ -1,0 +1,169 @@
+//! Where the parts of an answer go: files of a folder, or memory.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use saltus_config::Study;
+use saltus_results::{CsvTable, Dataset, Figure, ResultFolder, ResultsError, Value};
+use serde::Serialize;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Pixels of a PNG per unit of the SVG.
+const PNG_SCALE: f32 = 2.0;
+
+/// Rows of a table, one after the other.
+pub type Rows<'a> = &'a mut dyn Iterator<Item = Vec<Value>>;
+
+/// Fills a text.
+pub type Fill<'a> = &'a mut dyn FnMut(&mut dyn Write) -> io::Result<()>;
+
+/// Takes the parts of an answer, each under the name of its file.
+pub trait Store {
+    /// A text or a JSON document.
+    ///
+    /// # Errors
+    /// [`Failure`] if it cannot be kept.
+    fn put_text(&mut self, name: &str, fill: Fill) -> Result<(), Failure>;
+
+    /// A table; `settings` stand above the header.
+    ///
+    /// # Errors
+    /// [`Failure`] if it cannot be kept.
+    fn put_table(
+        &mut self,
+        name: &str,
+        settings: &[(&str, &str)],
+        header: &[String],
+        rows: Rows,
+    ) -> Result<(), Failure>;
+
+    /// A figure; its name has no ending.
+    ///
+    /// # Errors
+    /// [`Failure`] if it cannot be drawn or kept.
+    fn put_figure(&mut self, name: &str, figure: &Figure) -> Result<(), Failure>;
+
+    /// A dataset.
+    ///
+    /// # Errors
+    /// [`Failure`] if it cannot be kept.
+    fn put_dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), Failure>;
+}
+
+impl dyn Store + '_ {
+    /// Adds a text.
+    pub(crate) fn text(&mut self, name: &str, text: &str) -> Result<(), Failure> {
+        self.put_text(name, &mut |file| file.write_all(text.as_bytes()))
+    }
+
+    /// Adds a table; `settings` stand above the header.
+    pub(crate) fn table(
+        &mut self,
+        name: &str,
+        settings: &[(&str, &str)],
+        header: &[String],
+        rows: impl IntoIterator<Item = Vec<Value>>,
+    ) -> Result<(), Failure> {
+        self.put_table(name, settings, header, &mut rows.into_iter())
+    }
+
+    /// Adds a figure.
+    pub(crate) fn figure(&mut self, name: &str, figure: &Figure) -> Result<(), Failure> {
+        self.put_figure(name, figure)
+    }
+
+    /// Adds a dataset.
+    pub(crate) fn dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), Failure> {
+        self.put_dataset(name, dataset)
+    }
+}
+
+/// Writes a JSON document that ends in a newline.
+pub(crate) fn stream_json(to: &mut dyn Write, document: &impl Serialize) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *to, document)?;
+    to.write_all(b"\n")
+}
+
+/// A folder in the making; dropped before [`Folder::commit`] it leaves no trace.
+#[derive(Debug)]
+pub struct Folder {
+    inner: ResultFolder,
+    stop: Arc<AtomicBool>,
+}
+
+impl Folder {
+    /// Prepares `dir` and puts the resolved study in it. Done before a long computation, so that a
+    /// folder that cannot be written is refused at once.
+    ///
+    /// # Errors
+    /// [`Failure::Results`] if the folder cannot be written or holds files of others.
+    pub fn stage(dir: &Path, study: &Study, context: &Context) -> Result<Self, Failure> {
+        let mut inner = ResultFolder::stage(dir)?;
+        inner.write("study.toml", study.to_toml())?;
+        let stop = Arc::clone(&context.stop);
+        Ok(Self { inner, stop })
+    }
+
+    /// Moves everything into place.
+    ///
+    /// # Errors
+    /// [`Failure::Results`] if that is not possible, [`Failure::Interrupted`] if it shall not be.
+    pub fn commit(self) -> Result<PathBuf, Failure> {
+        self.check()?;
+        Ok(self.inner.commit()?)
+    }
+
+    /// Drawing may take seconds and does not see who stops it.
+    fn check(&self) -> Result<(), Failure> {
+        if self.stop.load(Ordering::SeqCst) {
+            Err(Failure::Interrupted)
+        } else {
+            Ok(())
+        }
+    }
+}
+
+impl Store for Folder {
+    fn put_text(&mut self, name: &str, fill: Fill) -> Result<(), Failure> {
+        Ok(self.inner.write_with(name, |file| fill(file))?)
+    }
+
+    fn put_table(
+        &mut self,
+        name: &str,
+        settings: &[(&str, &str)],
+        header: &[String],
+        rows: Rows,
+    ) -> Result<(), Failure> {
+        let header: Vec<&str> = header.iter().map(String::as_str).collect();
+        let fill = |file: &mut dyn Write| {
+            let mut table = CsvTable::new(file, settings, &header).map_err(plain)?;
+            for row in &mut *rows {
+                table.row(row).map_err(plain)?;
+            }
+            table.finish().map_err(plain).map(drop)
+        };
+        Ok(self.inner.write_with(name, fill)?)
+    }
+
+    fn put_figure(&mut self, name: &str, figure: &Figure) -> Result<(), Failure> {
+        self.check()?;
+        self.inner.write(&format!("{name}.svg"), figure.svg())?;
+        let png = figure.png(PNG_SCALE)?;
+        Ok(self.inner.write(&format!("{name}.png"), png)?)
+    }
+
+    fn put_dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), Failure> {
+        self.check()?;
+        Ok(self.inner.write(name, dataset.to_bytes()?)?)
+    }
+}
+
+fn plain(error: ResultsError) -> io::Error {
+    match error {
+        ResultsError::Table { source } => source,
+        other => io::Error::other(other),
+    }
+}
