@@ -26,7 +26,7 @@ struct Frequencies {
     base_hz: f64,
 }
 
-pub(crate) fn ask<'a>(study: &Study) -> Result<Box<dyn Answer + 'a>, Failure> {
+pub(crate) fn ask(study: &Study) -> Result<Box<dyn Answer>, Failure> {
     let found = frequencies(study).map_err(Failure::computation)?;
     Ok(Box::new(found))
 }

@@ -60,7 +60,7 @@ pub struct Labelled {
 }
 
 /// What was found.
-pub trait Answer {
+pub trait Answer: Send + Sync {
     /// What it says to people.
     fn summary(&self) -> String;
 
@@ -140,11 +140,7 @@ impl Request {
     /// # Errors
     /// [`Failure`] if the study does not fit the question, the computation does not get through, or it was
     /// stopped.
-    pub fn ask<'a>(
-        &'a self,
-        study: &'a Study,
-        context: &Context,
-    ) -> Result<Box<dyn Answer + 'a>, Failure> {
+    pub fn ask(&self, study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
         match self {
             Self::Frequencies => frequencies::ask(study),
             Self::Simulate => simulate::ask(study, context),

@@ -21,7 +21,7 @@ pub(super) fn attractors(run: &Run, report: &Report) -> Figure {
         }
         None => (0..shown).map(|i| plane(run, &series, i).into()).collect(),
     };
-    let base = base_in_title(run.study, run.parameter.as_ref());
+    let base = base_in_title(&run.study, run.parameter.as_ref());
     let each = run.parameter.as_ref().map_or("", |_| " per value");
     let starts = report.starts;
     let title = format!("Attractors: {base}{starts} quasi-random first states{each}");

@@ -19,25 +19,22 @@ use std::io::{self, Write};
 use std::sync::atomic::Ordering;
 
 /// What was asked and found.
-struct Run<'a> {
-    study: &'a Study,
+struct Run {
+    study: Study,
     /// What changes; without it there is one row, whose value means nothing.
     parameter: Option<Parameter>,
     found: Lineages,
     periods_run: u64,
 }
 
-pub(crate) fn ask<'a>(
-    study: &'a Study,
-    context: &Context,
-) -> Result<Box<dyn Answer + 'a>, Failure> {
+pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
     plane::need_people(study, "a search for attractors")?;
     let (parameter, values) = question(study)?;
     refuse_if_too_many(study, values.len())?;
     let control = context.control(study);
     let found = followed(study, parameter.as_ref(), &values, &control, context)?;
     Ok(Box::new(Run {
-        study,
+        study: study.clone(),
         parameter,
         found,
         periods_run: control.done.load(Ordering::Relaxed),
@@ -162,7 +159,7 @@ fn refuse_if_all_lost(rows: &[Row]) -> Result<(), Failure> {
     Err(Failure::computation(format!("{what}: {reason}")))
 }
 
-impl Answer for Run<'_> {
+impl Answer for Run {
     fn summary(&self) -> String {
         summary::text(self, &Report::new(self))
     }
@@ -178,7 +175,7 @@ impl Answer for Run<'_> {
     }
 }
 
-impl Run<'_> {
+impl Run {
     /// A value of the parameter, if there is one.
     fn value(&self, value: f64) -> Option<f64> {
         self.parameter.as_ref().map(|_| value)

@@ -96,7 +96,7 @@ pub(super) struct Loop {
 }
 
 impl<'a> Report<'a> {
-    pub(super) fn new(run: &Run<'a>) -> Self {
+    pub(super) fn new(run: &'a Run) -> Self {
         let (found, parameter) = (&run.found, run.parameter.as_ref());
         let sections = section::connected(found);
         let starts = run.study.attractors.starts;
@@ -118,7 +118,7 @@ impl<'a> Report<'a> {
             loops: found.loops.iter().map(Loop::new).collect(),
             unfinished: found.unfinished,
             periods_run: run.periods_run,
-            study: run.study,
+            study: &run.study,
         }
     }
 }

@@ -54,18 +54,18 @@ struct Finding {
 }
 
 /// An answer.
-struct Found<'a> {
-    study: &'a Study,
+struct Found {
+    study: Study,
     plane: Plane,
     basins: Basins,
     kept: Kept,
 }
 
-pub(crate) fn ask<'a>(
-    study: &'a Study,
+pub(crate) fn ask(
+    study: &Study,
     matched: bool,
     context: &Context,
-) -> Result<Box<dyn Answer + 'a>, Failure> {
+) -> Result<Box<dyn Answer>, Failure> {
     let plane = question(study)?;
     let control = context.control(study);
     let model = study.setup().model()?;
@@ -94,7 +94,7 @@ pub(crate) fn ask<'a>(
         basins.identities = basins.attractors.iter().map(identity).collect();
     }
     Ok(Box::new(Found {
-        study,
+        study: study.clone(),
         plane,
         basins,
         kept,
@@ -150,7 +150,7 @@ impl Basins {
     }
 }
 
-impl Answer for Found<'_> {
+impl Answer for Found {
     fn summary(&self) -> String {
         summary::text(&self.plane, &self.report())
     }
@@ -161,7 +161,7 @@ impl Answer for Found<'_> {
 
     fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
         let Self { plane, basins, .. } = self;
-        tables::write(store, self.study, &self.report())?;
+        tables::write(store, &self.study, &self.report())?;
         store.figure("basins", &figures::basins(plane, basins))?;
         store.figure("layers", &plane::layers_figure(plane, &basins.layers))?;
         let title = "Basins of attraction of a jumper on a plate";
@@ -170,7 +170,7 @@ impl Answer for Found<'_> {
         let attractor = Variable::new("attractor", &[&over[0], &over[1]], numbers)
             .long_name("Number of the attractor in the table attractors, 0 for none")
             .units("1");
-        let dataset = plane::dataset(title, self.study, plane, basins.layers.clone());
+        let dataset = plane::dataset(title, &self.study, plane, basins.layers.clone());
         store.dataset("basins.nc", dataset.variable(attractor))
     }
 
@@ -183,8 +183,8 @@ impl Answer for Found<'_> {
     }
 }
 
-impl Found<'_> {
+impl Found {
     fn report(&self) -> Report<'_> {
-        Report::new(self.study, &self.plane, &self.basins)
+        Report::new(&self.study, &self.plane, &self.basins)
     }
 }

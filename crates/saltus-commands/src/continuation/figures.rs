@@ -20,7 +20,7 @@ pub(super) fn write(folder: &mut dyn Store, run: &Run) -> Result<(), Failure> {
 }
 
 fn diagram(run: &Run) -> Figure {
-    let base = base_in_title(run.study, Some(&run.question.parameter));
+    let base = base_in_title(&run.study, Some(&run.question.parameter));
     let inertia = run.model.setup().inertia.name();
     let title = format!("Branches of periodic orbits: {base}in-plane inertia {inertia}");
     let jumpers = run.study.jumper.len();
@@ -37,7 +37,7 @@ fn axis(parameter: &Parameter, from: f64, to: f64) -> Axis {
 }
 
 fn branches(run: &Run, jumper: usize, title: &str) -> Branches {
-    let table = run.question.table;
+    let table = &run.question.table;
     let mut diagram = Branches::new(
         title,
         axis(&run.question.parameter, table.from, table.to),
@@ -65,7 +65,7 @@ fn branches(run: &Run, jumper: usize, title: &str) -> Branches {
 }
 
 fn curves(run: &Run) -> Figure {
-    let table = run.question.table;
+    let table = &run.question.table;
     let first = axis(&run.question.parameter, table.from, table.to);
     let second = run.question.second.as_ref();
     let second = second.map_or(Axis::new(""), |(t, p)| axis(p, t.from, t.to));

@@ -33,11 +33,11 @@ use view::View;
 const CLOUD: (u64, u64) = (150, 50);
 
 /// What was found.
-struct Run<'a> {
-    study: &'a Study,
+struct Run {
+    study: Study,
     /// At the start.
     model: Model,
-    question: Question<'a>,
+    question: Question,
     limbs: Vec<Limb>,
     /// The limbs in the paper's units.
     views: Vec<View>,
@@ -50,23 +50,23 @@ pub(crate) fn adopted(origin: &Labelled, study: &Study) -> Result<Study, Failure
     Origin::read(&origin.from, &origin.at)?.adopt(study)
 }
 
-pub(crate) fn ask<'a>(
-    study: &'a Study,
+pub(crate) fn ask(
+    study: &Study,
     origin: Option<&Labelled>,
     context: &Context,
-) -> Result<Box<dyn Answer + 'a>, Failure> {
+) -> Result<Box<dyn Answer>, Failure> {
     let origin = origin.map(|origin| Origin::read(&origin.from, &origin.at));
     let origin = origin.transpose()?;
     let question = Question::new(study)?;
     Ok(Box::new(follow(study, question, origin.as_ref(), context)?))
 }
 
-fn follow<'a>(
-    study: &'a Study,
-    question: Question<'a>,
+fn follow(
+    study: &Study,
+    question: Question,
     origin: Option<&Origin>,
     context: &Context,
-) -> Result<Run<'a>, Failure> {
+) -> Result<Run, Failure> {
     let control = &context.control(study);
     let models = Models::new(study, &question.parameters(), control.options);
     let model_at = |values: &[f64]| models.at(values);
@@ -93,7 +93,7 @@ fn follow<'a>(
     let cloud = cloud(study, &question, &models, context)?;
     context.check()?;
     Ok(Run {
-        study,
+        study: study.clone(),
         model,
         question,
         limbs,
@@ -115,7 +115,7 @@ fn first<F>(
 where
     F: Fn(&[f64]) -> Result<System, String> + Sync,
 {
-    let (table, values) = (question.table, &question.start);
+    let (table, values) = (&question.table, &question.start);
     if let Some(origin) = origin {
         let found = find_orbit(
             family,
@@ -165,7 +165,7 @@ fn cloud(
     Ok(rows)
 }
 
-impl Answer for Run<'_> {
+impl Answer for Run {
     fn summary(&self) -> String {
         summary::text(self, &Report::new(self))
     }

@@ -15,16 +15,16 @@ add a table that says what changes, such as
   to = 0.5";
 
 /// Branches over one parameter, and perhaps curves over a second one.
-pub(super) struct Question<'a> {
-    pub(super) table: &'a ContinueTable,
+pub(super) struct Question {
+    pub(super) table: ContinueTable,
     pub(super) parameter: Parameter,
-    pub(super) second: Option<(&'a SecondTable, Parameter)>,
+    pub(super) second: Option<(SecondTable, Parameter)>,
     /// The study's own values: of the second parameter, if there is one, then of the first.
     pub(super) start: Vec<f64>,
 }
 
-impl<'a> Question<'a> {
-    pub(super) fn new(study: &'a Study) -> Result<Self, Failure> {
+impl Question {
+    pub(super) fn new(study: &Study) -> Result<Self, Failure> {
         let table = study.continuation.as_ref();
         let table =
             table.ok_or_else(|| Failure::refused("the study has no [continue] table", EXAMPLE))?;
@@ -33,10 +33,10 @@ impl<'a> Question<'a> {
         let mut second = None;
         if let Some(more) = &table.second {
             start.insert(0, more.start(study)?);
-            second = Some((more, Parameter::parse(&more.parameter)?));
+            second = Some((more.clone(), Parameter::parse(&more.parameter)?));
         }
         Ok(Self {
-            table,
+            table: table.clone(),
             parameter: Parameter::parse(&table.parameter)?,
             second,
             start,

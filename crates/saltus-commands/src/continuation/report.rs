@@ -135,7 +135,7 @@ impl<'a> Report<'a> {
                 })
                 .collect(),
             curves: run.curves.iter().map(Curve::new).collect(),
-            study: run.study,
+            study: &run.study,
         }
     }
 }

@@ -31,7 +31,7 @@ pub(super) fn convergence(run: &Run, convergence: &[Running]) -> Figure {
     let curves = Curves::new(
         format!(
             "Lyapunov exponents{which}: {}",
-            setting(run.study, &run.model)
+            setting(&run.study, &run.model)
         ),
         Axis::new(format!(
             "Forcing periods of each of {replicas} replicas (-)"

@@ -24,18 +24,15 @@ use std::io::{self, Write};
 const SEEN: u64 = 128;
 
 /// What was found for a study.
-struct Run<'a> {
-    study: &'a Study,
+struct Run {
+    study: Study,
     model: Model,
     how: Measurement,
     growth: Growth,
     verdict: Verdict,
 }
 
-pub(crate) fn ask<'a>(
-    study: &'a Study,
-    context: &Context,
-) -> Result<Box<dyn Answer + 'a>, Failure> {
+pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
     let model = study.setup().model()?;
     let how = question(study, &model)?;
     let control = context.control(study);
@@ -62,13 +59,13 @@ fn question(study: &Study, model: &Model) -> Result<Measurement, Failure> {
     })
 }
 
-fn measure<'a>(
-    study: &'a Study,
+fn measure(
+    study: &Study,
     model: Model,
     how: Measurement,
     control: &Control,
     context: &Context,
-) -> Result<Run<'a>, Failure> {
+) -> Result<Run, Failure> {
     let start = model.start(study.start.z, study.start.v);
     let until = how.transient + how.periods;
     let work = || {
@@ -92,7 +89,7 @@ fn measure<'a>(
     };
     let verdict = judge(&growth.spectrum, recurrence, &criteria);
     Ok(Run {
-        study,
+        study: study.clone(),
         model,
         how,
         growth,
@@ -126,7 +123,7 @@ fn recurrence(
     }))
 }
 
-impl Answer for Run<'_> {
+impl Answer for Run {
     fn summary(&self) -> String {
         summary::text(self, &Report::new(self))
     }

@@ -65,7 +65,7 @@ pub(super) struct Dimension {
 }
 
 impl<'a> Report<'a> {
-    pub(super) fn new(run: &Run<'a>) -> Self {
+    pub(super) fn new(run: &'a Run) -> Self {
         let (spectrum, scales) = (&run.growth.spectrum, run.model.scales());
         let rate = |exponent: Exponent| Rate::new(&exponent, scales.period());
         let dimension = spectrum.kaplan_yorke().map(|found| Dimension {
@@ -88,7 +88,7 @@ impl<'a> Report<'a> {
             sum: rate(spectrum.sum()),
             divergence: Divergence::new(run),
             kaplan_yorke: dimension,
-            study: run.study,
+            study: &run.study,
         }
     }
 }

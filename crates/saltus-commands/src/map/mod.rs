@@ -32,17 +32,14 @@ add a table that says what changes, such as
   count = 64";
 
 /// What was found.
-struct Map<'a> {
-    study: &'a Study,
+struct Map {
+    study: Study,
     plane: Plane,
     layers: Layers,
     kept: Kept,
 }
 
-pub(crate) fn ask<'a>(
-    study: &'a Study,
-    context: &Context,
-) -> Result<Box<dyn Answer + 'a>, Failure> {
+pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
     let plane = question(study)?;
     let parameters = [&plane.y.parameter, &plane.x.parameter];
     let models = Models::new(study, &parameters, study.options());
@@ -58,7 +55,7 @@ pub(crate) fn ask<'a>(
         return kept.remove().and(Err(failure));
     }
     Ok(Box::new(Map {
-        study,
+        study: study.clone(),
         plane,
         layers,
         kept,
@@ -87,7 +84,7 @@ impl Gather for Layers {
     }
 }
 
-impl Answer for Map<'_> {
+impl Answer for Map {
     fn summary(&self) -> String {
         summary::text(&self.plane, &self.report())
     }
@@ -101,7 +98,7 @@ impl Answer for Map<'_> {
         store.figure("map", &figures::periods(plane, layers))?;
         store.figure("layers", &plane::layers_figure(plane, layers))?;
         let title = "Attractors of a jumper on a plate over two parameters";
-        let dataset = plane::dataset(title, self.study, plane, layers.clone());
+        let dataset = plane::dataset(title, &self.study, plane, layers.clone());
         store.dataset("map.nc", dataset)
     }
 
@@ -114,8 +111,8 @@ impl Answer for Map<'_> {
     }
 }
 
-impl Map<'_> {
+impl Map {
     fn report(&self) -> Report<'_> {
-        Report::new(self.study, &self.plane, &self.layers)
+        Report::new(&self.study, &self.plane, &self.layers)
     }
 }

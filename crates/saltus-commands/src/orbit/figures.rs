@@ -27,7 +27,7 @@ pub(super) fn write(folder: &mut dyn Store, run: &Run) -> Result<(), Failure> {
 
 fn title(run: &Run, what: &str) -> String {
     let period = run.orbit.period();
-    let setting = setting(run.study, &run.model);
+    let setting = setting(&run.study, &run.model);
     format!("{what}, period {period}: {setting}")
 }
 

@@ -17,24 +17,21 @@ use saltus_config::{OrbitTable, Study};
 use std::io::{self, Write};
 
 /// An orbit with what it is an orbit of.
-struct Run<'a> {
-    study: &'a Study,
+struct Run {
+    study: Study,
     model: Model,
     orbit: Orbit,
     portrait: Portrait,
 }
 
-pub(crate) fn ask<'a>(
-    study: &'a Study,
-    context: &Context,
-) -> Result<Box<dyn Answer + 'a>, Failure> {
+pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
     let control = context.control(study);
     let run = context.count("searching", &control.done, || find(study, &control))?;
     context.check()?;
     Ok(Box::new(run))
 }
 
-fn find<'a>(study: &'a Study, control: &Control) -> Result<Run<'a>, Failure> {
+fn find(study: &Study, control: &Control) -> Result<Run, Failure> {
     let model = study.setup().model()?;
     model.check_step(&control.options)?;
     let start = model.start(study.start.z, study.start.v);
@@ -43,7 +40,7 @@ fn find<'a>(study: &'a Study, control: &Control) -> Result<Run<'a>, Failure> {
             .advise("[start], orbit.transient and orbit.period say where the search begins")
     })?;
     Ok(Run {
-        study,
+        study: study.clone(),
         portrait: portrait(&model, &orbit, control)?,
         orbit,
         model,
@@ -59,7 +56,7 @@ fn search(table: &OrbitTable) -> OrbitSearch {
     }
 }
 
-impl Answer for Run<'_> {
+impl Answer for Run {
     fn summary(&self) -> String {
         summary::text(self, &Report::new(self))
     }

@@ -52,7 +52,7 @@ impl<'a> Report<'a> {
             sequence: saltus::study::sequence(&run.model, orbit),
             section: seen.section.iter().map(SectionPoint::from).collect(),
             switches: seen.switches.iter().map(SwitchPoint::from).collect(),
-            study: run.study,
+            study: &run.study,
         }
     }
 }

@@ -34,7 +34,7 @@ struct Results {
     inertia: InertiaComparison,
 }
 
-pub(crate) fn ask<'a>(quick: bool, context: &Context) -> Result<Box<dyn Answer + 'a>, Failure> {
+pub(crate) fn ask(quick: bool, context: &Context) -> Result<Box<dyn Answer>, Failure> {
     Ok(Box::new(compute(quick, context)?))
 }
 

@@ -31,7 +31,7 @@ fn portraits(run: &Run) -> Figure {
     let motion = Motion {
         title: format!(
             "Phase portrait: {}, {}",
-            setting(run.study, &run.model),
+            setting(&run.study, &run.model),
             covered(run)
         ),
         states: &run.trajectory.history.states,
@@ -44,7 +44,7 @@ fn portraits(run: &Run) -> Figure {
 fn histories(run: &Run) -> Figure {
     let title = format!(
         "Time history: {}, {}",
-        setting(run.study, &run.model),
+        setting(&run.study, &run.model),
         covered(run)
     );
     let shown = run.jumpers().min(PANELS);
@@ -97,7 +97,7 @@ fn amplitudes(run: &Run) -> Figure {
     let curves = Curves::new(
         format!(
             "Empty plate, once per forcing period: {}",
-            setting(run.study, &run.model)
+            setting(&run.study, &run.model)
         ),
         Axis::new("Forcing period (-)"),
         Axis::new("Amplitude r/h (-)"),

@@ -24,20 +24,17 @@ const HISTORY: u32 = 20;
 const POINTS: u32 = 400;
 
 /// A run with what it ran.
-struct Run<'a> {
-    study: &'a Study,
+struct Run {
+    study: Study,
     model: Model,
     trajectory: Trajectory,
 }
 
-pub(crate) fn ask<'a>(
-    study: &'a Study,
-    context: &Context,
-) -> Result<Box<dyn Answer + 'a>, Failure> {
+pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
     Ok(Box::new(integrate(study, context)?))
 }
 
-fn integrate<'a>(study: &'a Study, context: &Context) -> Result<Run<'a>, Failure> {
+fn integrate(study: &Study, context: &Context) -> Result<Run, Failure> {
     let control = context.control(study);
     let model = study.setup().model_with_energy()?;
     let start = model.start(study.start.z, study.start.v);
@@ -50,13 +47,13 @@ fn integrate<'a>(study: &'a Study, context: &Context) -> Result<Run<'a>, Failure
     let trajectory = context.follow(periods.into(), "periods", &control.done, work)?;
     context.check()?;
     Ok(Run {
-        study,
+        study: study.clone(),
         model,
         trajectory,
     })
 }
 
-impl Answer for Run<'_> {
+impl Answer for Run {
     fn summary(&self) -> String {
         summary::text(self, &Report::new(self))
     }
@@ -85,7 +82,7 @@ impl Answer for Run<'_> {
     }
 }
 
-impl Run<'_> {
+impl Run {
     fn jumpers(&self) -> usize {
         self.study.jumper.len()
     }

@@ -64,7 +64,7 @@ impl<'a> Report<'a> {
             energy: Energy::new(&trajectory.energy),
             section: trajectory.section.iter().map(SectionPoint::from).collect(),
             switches: trajectory.switches.iter().map(SwitchPoint::from).collect(),
-            study: run.study,
+            study: &run.study,
         }
     }
 }

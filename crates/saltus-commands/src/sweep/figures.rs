@@ -21,7 +21,7 @@ fn setting(run: &Run) -> String {
     let sweep = &run.sweep;
     format!(
         "{}{} forcing periods per value after {}",
-        base_in_title(run.study, Some(&run.parameter)),
+        base_in_title(&run.study, Some(&run.parameter)),
         sweep.record,
         sweep.transient
     )
@@ -57,7 +57,7 @@ pub(super) fn exponents(run: &Run, report: &Report) -> Figure {
     };
     let title = format!(
         "Lyapunov exponents{which}: {}{} forcing periods per value",
-        base_in_title(run.study, Some(&run.parameter)),
+        base_in_title(&run.study, Some(&run.parameter)),
         run.table.exponent_periods
     );
     let passes = run.sweep.passes.iter().enumerate().take(PANELS);

@@ -31,9 +31,9 @@ add a table that says what changes, such as
   direction = \"both\"";
 
 /// A sweep with its question.
-struct Run<'a> {
-    study: &'a Study,
-    table: &'a SweepTable,
+struct Run {
+    study: Study,
+    table: SweepTable,
     parameter: Parameter,
     sweep: Sweep,
     rows: Vec<SweepRow>,
@@ -46,10 +46,7 @@ struct Run<'a> {
 /// Forcing periods that a label takes, roughly: most motions are on a cycle when their row ends.
 const LABELLING: u64 = 50;
 
-pub(crate) fn ask<'a>(
-    study: &'a Study,
-    context: &Context,
-) -> Result<Box<dyn Answer + 'a>, Failure> {
+pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
     let (table, parameter) = question(study)?;
     let sweep = plan(study, table);
     let control = context.control(study);
@@ -61,8 +58,8 @@ pub(crate) fn ask<'a>(
     context.check()?;
     refuse_if_all_failed(&rows)?;
     Ok(Box::new(Run {
-        study,
-        table,
+        study: study.clone(),
+        table: table.clone(),
         parameter,
         sweep,
         rows,
@@ -197,7 +194,7 @@ fn completed(row: &SweepRow) -> bool {
     row.status == Ok(Status::Completed)
 }
 
-impl Answer for Run<'_> {
+impl Answer for Run {
     fn summary(&self) -> String {
         summary::text(self, &Report::new(self))
     }
@@ -217,7 +214,7 @@ impl Answer for Run<'_> {
     }
 }
 
-impl Run<'_> {
+impl Run {
     fn jumpers(&self) -> usize {
         self.study.jumper.len()
     }

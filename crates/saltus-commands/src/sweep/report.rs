@@ -63,7 +63,7 @@ impl<'a> Report<'a> {
             label: run.parameter.label(),
             passes: run.sweep.passes.iter().map(pass).collect(),
             rows: (0..run.rows.len()).map(|row| Row::new(run, row)).collect(),
-            study: run.study,
+            study: &run.study,
         }
     }
 }
