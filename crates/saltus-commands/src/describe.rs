@@ -17,7 +17,7 @@ pub fn warnings(study: &Study) -> Vec<String> {
     let plane = |name, axes: [&AxisTable; 2]| {
         let mut refused = axes
             .into_iter()
-            .filter_map(|axis| study.set(&axis.parameter, axis.from).err());
+            .filter_map(|axis| study.set(&axis.parameter, axis.from()).err());
         refused
             .next()
             .map(|error| format!("[{name}] cannot run: {error}"))
@@ -28,7 +28,7 @@ pub fn warnings(study: &Study) -> Vec<String> {
         .iter()
         .filter_map(|t| plane("basins", [&t.x, &t.y]));
     let sweep = study.sweep.iter().filter_map(|sweep| {
-        let refused = study.set(&sweep.parameter, sweep.from).err()?;
+        let refused = study.set(&sweep.parameter, sweep.axis().from()).err()?;
         Some(format!("[sweep] cannot run: {refused}"))
     });
     let branches = study.continuation.iter().filter_map(|table| {
@@ -36,7 +36,7 @@ pub fn warnings(study: &Study) -> Vec<String> {
         Some(format!("[continue] cannot run: {refused}"))
     });
     let attractors = study.attractors.sweep().into_iter().filter_map(|axis| {
-        let refused = study.set(&axis.parameter, axis.from).err()?;
+        let refused = study.set(&axis.parameter, axis.from()).err()?;
         Some(format!("[attractors] cannot run: {refused}"))
     });
     alone
@@ -96,14 +96,18 @@ pub fn describe(study: &Study) -> Result<String, Failure> {
 /// What is asked, table by table.
 fn questions(study: &Study) -> Vec<(&'static str, String)> {
     let range = |name: &str, from: f64, to: f64| format!("{name} from {from} to {to}");
-    let axis = |a: &AxisTable| range(&a.parameter, a.from, a.to);
+    let axis = |a: &AxisTable| range(&a.parameter, a.from(), a.to());
     let plane = |x: &AxisTable, y: &AxisTable| {
-        let pixels = format!("{} x {} pixels", x.count, y.count);
+        let pixels = format!("{} x {} pixels", x.count(), y.count());
         format!("{} by {}, {pixels}", axis(x), axis(y))
     };
     let sweep = study.sweep.as_ref().map(|t| {
-        let values = range(&t.parameter, t.from, t.to);
-        format!("{values}, {} values, {}", t.count, word(&t.direction))
+        let values = axis(&t.axis());
+        format!(
+            "{values}, {} values, {}",
+            t.axis().count(),
+            word(&t.direction)
+        )
     });
     let map = study.map.as_ref().map(|t| plane(&t.x, &t.y));
     let basins = study.basins.as_ref().map(|t| plane(&t.x, &t.y));
@@ -114,7 +118,7 @@ fn questions(study: &Study) -> Vec<(&'static str, String)> {
     });
     let attractors = study.attractors.sweep().map(|a| {
         let starts = study.attractors.starts;
-        format!("{}, {} values, {starts} starts", axis(&a), a.count)
+        format!("{}, {} values, {starts} starts", axis(&a), a.count())
     });
     let asked = [
         ("sweep", sweep),

@@ -3,7 +3,7 @@
 use crate::Parameter;
 use crate::error::{StudyError, StudyErrorKind};
 use crate::structure::Fault;
-use crate::study::{AxisTable, Study};
+use crate::study::Study;
 use crate::validate::wrong;
 
 /// A parameter and its ends.
@@ -14,23 +14,35 @@ pub(crate) struct Axis<'a> {
     pub(crate) parameter: &'a str,
     pub(crate) from: f64,
     pub(crate) to: f64,
+    /// Where the table says so.
+    pub(crate) ends: Ends,
+}
+
+/// How a table gives the ends of its axis.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Ends {
+    /// As `from` and `to`.
+    Keys,
+    /// As the first and the last of a list of this many `values`.
+    Listed(usize),
 }
 
 /// What is wrong with a parameter, and what would be right.
 pub(crate) type Refusal = [&'static str; 2];
 
-impl<'a> Axis<'a> {
-    pub(crate) fn of(table: &'a str, axis: &'a AxisTable) -> Self {
-        Self {
-            table,
-            parameter: &axis.parameter,
-            from: axis.from,
-            to: axis.to,
-        }
-    }
-
+impl Axis<'_> {
     fn fault(&self, key: &str, given: impl Into<toml::Value>, what: &str) -> Fault {
         wrong(&format!("{}.{key}", self.table), given, what)
+    }
+
+    /// Both ends, each with its key in the table.
+    fn ends(&self) -> [(String, f64); 2] {
+        let keys = match self.ends {
+            Ends::Keys => ["from".to_owned(), "to".to_owned()],
+            Ends::Listed(count) => [0, count.saturating_sub(1)].map(|i| format!("values.{i}")),
+        };
+        let [from, to] = keys;
+        [(from, self.from), (to, self.to)]
     }
 
     /// The study's own value of the parameter, which must lie between the ends.
@@ -135,12 +147,12 @@ fn ends(study: &Study, axes: &[Axis], faults: &mut Vec<Fault>) {
     if nobody && axes.iter().any(|a| a.parameter.starts_with("jumper.")) {
         return;
     }
-    for (end, value) in [("from", axis.from), ("to", axis.to)] {
+    for (end, value) in axis.ends() {
         match study.set(axis.parameter, value) {
             Ok(changed) => ends(&changed, others, faults),
             Err(error) => faults.push(Fault {
                 help: error.advice().map(str::to_owned),
-                ..axis.fault(end, value, &error.to_string())
+                ..axis.fault(&end, value, &error.to_string())
             }),
         }
     }

@@ -17,6 +17,8 @@
 
 mod axis;
 mod error;
+mod format;
+mod json;
 mod key;
 mod load;
 mod orbits;
@@ -30,6 +32,7 @@ mod structure;
 mod study;
 mod template;
 mod validate;
+mod values;
 
 pub use error::{StudyError, StudyErrorKind};
 pub use load::{load, parse, read};

@@ -2,6 +2,8 @@
 
 use crate::Study;
 use crate::error::{StudyError, StudyErrorKind};
+use crate::format;
+use crate::json;
 use crate::key::Key;
 use crate::overrides::{self, SetBy};
 use crate::schema::Node;
@@ -93,10 +95,38 @@ fn plain(error: &io::Error) -> String {
 /// A [`StudyError`] with key, value, what would be right, and the line or the override it came from.
 pub fn parse(name: &str, text: &str, sets: &[String]) -> Result<Study, StudyError> {
     let (source, table) = Source::parse(name, text)?;
+    let file = Some((name, &source));
+    study(file, table, sets)
+}
+
+impl Study {
+    /// Checks a study written as JSON, with overrides: an object of the tables of a study file, the people as the
+    /// list `jumper`.
+    ///
+    /// Whole numbers are numbers too. A null is refused, and so are the texts "nan", "inf" and "-inf" for a number.
+    ///
+    /// # Errors
+    /// A [`StudyError`] with key, value and what would be right, or the override it came from.
+    pub fn from_json(text: &str, sets: &[String]) -> Result<Self, StudyError> {
+        study(None, json::table(text)?, sets)
+    }
+}
+
+/// The study of these tables, with overrides.
+fn study(
+    file: Option<(&str, &Source)>,
+    table: toml::Table,
+    sets: &[String],
+) -> Result<Study, StudyError> {
+    let nothing_set = Origin {
+        file,
+        set_by: &SetBy::new(),
+    };
+    // what a newer version calls its keys would only mislead
+    nothing_set.refuse(format::newer(&table).into_iter().collect())?;
     let (table, set_by) = overrides::apply(sets, table)?;
     let origin = Origin {
-        name,
-        source: &source,
+        file,
         set_by: &set_by,
     };
     let tree = toml::Value::Table(table);
@@ -107,15 +137,14 @@ pub fn parse(name: &str, text: &str, sets: &[String]) -> Result<Study, StudyErro
 
     // the structure is right, so this fails only if schema and records disagree
     let study = Study::deserialize(tree)
-        .map_err(|e| StudyError::new(StudyErrorKind::Value, format!("{name}: {}", e.message())))?;
+        .map_err(|e| StudyError::new(StudyErrorKind::Value, e.message().to_owned()))?;
     origin.refuse(validate::faults(&study))?;
     Ok(study)
 }
 
-/// Where keys came from.
+/// Where keys came from: a file, if there is one, and overrides.
 struct Origin<'a> {
-    name: &'a str,
-    source: &'a Source,
+    file: Option<(&'a str, &'a Source)>,
     set_by: &'a SetBy,
 }
 
@@ -127,16 +156,17 @@ impl Origin<'_> {
     }
 
     fn locate(&self, fault: Fault) -> StudyError {
-        let place = match (self.set_by(&fault.key), fault.point) {
-            (Some(_), _) => None,
-            (None, Point::Name) => self.source.key(&fault.key, "not a key of a study"),
-            (None, Point::Value) => self.source.value(&fault.key, "this value"),
-            (None, Point::Table) => self.source.value(&fault.key, "missing in this table"),
-        };
-        let message = match (self.set_by(&fault.key), &place) {
-            (Some(text), _) => format!("--set {text}: {}", fault.message),
-            (None, Some(_)) => fault.message,
-            (None, None) => format!("{}: {}", self.name, fault.message),
+        let set_by = self.set_by(&fault.key);
+        let source = self.file.filter(|_| set_by.is_none());
+        let place = source.and_then(|(_, source)| match fault.point {
+            Point::Name => source.key(&fault.key, "not a key of a study"),
+            Point::Value => source.value(&fault.key, "this value"),
+            Point::Table => source.value(&fault.key, "missing in this table"),
+        });
+        let message = match (set_by, source, &place) {
+            (Some(text), ..) => format!("--set {text}: {}", fault.message),
+            (None, Some((name, _)), None) => format!("{name}: {}", fault.message),
+            _ => fault.message,
         };
         let error = StudyError::new(fault.kind, message)
             .key_is(fault.key.to_string())

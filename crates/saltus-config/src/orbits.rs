@@ -1,10 +1,11 @@
 //! Are the questions of `[orbit]`, `[continue]` and `[attractors]` possible ones?
 
-use crate::axis::{self, Axis};
+use crate::axis::{self, Axis, Ends};
 use crate::error::StudyError;
 use crate::structure::{Fault, description};
-use crate::study::{ContinueTable, SecondTable, Study};
+use crate::study::{AxisTable, ContinueTable, SecondTable, Study};
 use crate::validate::{key, wrong};
+use crate::values;
 
 /// No more segments than periods, where these are known.
 pub(crate) fn orbit(study: &Study, faults: &mut Vec<Fault>) {
@@ -54,26 +55,23 @@ pub(crate) fn attractors(study: &Study, faults: &mut Vec<Fault>) {
             faults.push(wrong(name, given, "[lowest, highest] is needed"));
         }
     }
-    if let Some(sweep) = table.sweep() {
+    let axis = table.axis();
+    if axis == AxisTable::default() {
+        return;
+    }
+    let found = faults.len();
+    if table.parameter.is_none() {
+        let key = key("attractors.parameter");
+        let help = description(&key).map(|d| format!("a sweep needs parameter: {d}"));
+        faults.push(Fault::missing(&key, help));
+    }
+    let axis = values::axis("attractors", &axis, faults);
+    if let Some(axis) = axis.filter(|_| faults.len() == found) {
         let refusal = axis::of_the_system([
             "the starts are drawn, not swept",
             "attractors.z and attractors.v say from where; name a number of the system",
         ]);
-        axis::check(study, &[Axis::of("attractors", &sweep)], refusal, faults);
-        return;
-    }
-    let given = [
-        ("parameter", table.parameter.is_some()),
-        ("from", table.from.is_some()),
-        ("to", table.to.is_some()),
-        ("count", table.count.is_some()),
-    ];
-    if given.iter().any(|(_, given)| *given) {
-        for (name, _) in given.iter().filter(|(_, given)| !given) {
-            let key = key("attractors").child(name);
-            let help = description(&key).map(|d| format!("a sweep needs {name}: {d}"));
-            faults.push(Fault::missing(&key, help));
-        }
+        axis::check(study, &[axis], refusal, faults);
     }
 }
 
@@ -84,6 +82,7 @@ impl ContinueTable {
             parameter: &self.parameter,
             from: self.from,
             to: self.to,
+            ends: Ends::Keys,
         }
     }
 
@@ -104,6 +103,7 @@ impl SecondTable {
             parameter: &self.parameter,
             from: self.from,
             to: self.to,
+            ends: Ends::Keys,
         }
     }
 

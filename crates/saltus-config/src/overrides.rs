@@ -7,10 +7,14 @@ use crate::structure::{description, nearest};
 use std::collections::HashMap;
 use toml::{Table, Value};
 
-/// `base.frequency` and `base.frequency_ratio` say the same thing: the one given last stands.
-const INSTEAD: [(&str, &str); 2] = [
-    ("base.frequency", "base.frequency_ratio"),
-    ("base.frequency_ratio", "base.frequency"),
+/// Keys of one table that say the same thing as another key of it: what is given last stands.
+const INSTEAD: [(&str, &[&str]); 6] = [
+    ("frequency", &["frequency_ratio"]),
+    ("frequency_ratio", &["frequency"]),
+    ("values", &["from", "to", "count"]),
+    ("from", &["values"]),
+    ("to", &["values"]),
+    ("count", &["values"]),
 ];
 
 /// Which keys were set from outside, and by which text.
@@ -43,7 +47,7 @@ fn apply_one(text: &str, tree: &mut Value, set_by: &SetBy) -> Result<Vec<String>
         return Err(malformed(text, "there is no value after the `=`").key_is(key.to_string()));
     }
     settable(&key, text)?;
-    drop_alternative(&key, tree, set_by);
+    drop_alternatives(&key, tree, set_by);
     set(
         Node::root(),
         tree,
@@ -89,16 +93,18 @@ fn settable(key: &Key, text: &str) -> Result<(), StudyError> {
 }
 
 /// Takes out what `key` replaces, unless that too was set from outside (then both stand, and are refused).
-fn drop_alternative(key: &Key, tree: &mut Value, set_by: &SetBy) {
-    let key = key.to_string();
-    let other = INSTEAD
-        .iter()
-        .find(|(given, _)| *given == key)
-        .map(|(_, other)| *other);
-    if let Some(other) = other.filter(|other| !set_by.contains_key(*other)) {
-        let name = other.trim_start_matches("base.");
-        if let Some(base) = tree.get_mut("base").and_then(Value::as_table_mut) {
-            base.remove(name);
+fn drop_alternatives(key: &Key, tree: &mut Value, set_by: &SetBy) {
+    let (Some((name, path)), Some(parent)) = (key.segments().split_last(), key.parent()) else {
+        return;
+    };
+    let others = INSTEAD.iter().filter(|(given, _)| given == name);
+    let table = path.iter().try_fold(tree, |at, name| at.get_mut(name));
+    let Some(table) = table.and_then(Value::as_table_mut) else {
+        return;
+    };
+    for other in others.flat_map(|(_, others)| *others) {
+        if !set_by.contains_key(&parent.child(other).to_string()) {
+            table.remove(*other);
         }
     }
 }

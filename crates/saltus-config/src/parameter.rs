@@ -1,12 +1,12 @@
 //! One number of a study, by its key: what a sweep changes and an axis shows.
 
-use crate::Study;
 use crate::error::{StudyError, StudyErrorKind};
 use crate::key::Key;
 use crate::overrides;
 use crate::schema::{Kind, Node, keys};
 use crate::structure::nearest;
 use crate::validate;
+use crate::{AttractorsTable, Study};
 use serde::Deserialize;
 use std::fmt;
 use toml::Value;
@@ -48,7 +48,14 @@ impl Parameter {
             StudyError::new(StudyErrorKind::Value, format!("{self} = {value}: {reason}"))
                 .key_is(self.key())
         };
-        let mut base = study.clone();
+        // questions stay as they are, and the lists of values among them may be long
+        let mut base = Study {
+            sweep: None,
+            map: None,
+            basins: None,
+            attractors: AttractorsTable::default(),
+            ..study.clone()
+        };
         match self.key().as_str() {
             "base.frequency" => base.base.frequency_ratio = None,
             "base.frequency_ratio" => base.base.frequency = None,
@@ -71,7 +78,13 @@ impl Parameter {
         .map_err(&refused)?;
         let changed = Study::deserialize(tree).map_err(|e| refused(e.message().to_owned()))?;
         validate::refuse(validate::faults_of_system(&changed))?;
-        Ok(changed)
+        Ok(Study {
+            sweep: study.sweep.clone(),
+            map: study.map.clone(),
+            basins: study.basins.clone(),
+            attractors: study.attractors.clone(),
+            ..changed
+        })
     }
 
     /// Its value in a study; of several jumpers, the first one's.

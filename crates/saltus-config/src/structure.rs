@@ -104,12 +104,13 @@ fn check_list(node: Node, items: &[Value], value: &Value, key: &Key, faults: &mu
     let short = node.number("minItems").is_some_and(|min| length < min);
     let long = node.number("maxItems").is_some_and(|max| length > max);
     if short || long {
-        let wanted = node.number("minItems").unwrap_or_default();
-        faults.push(Fault::value(
-            key,
-            value,
-            &format!("{wanted} numbers are needed, {length} were given"),
-        ));
+        let bounds = ["minItems", "maxItems"].map(|name| node.number(name).unwrap_or_default());
+        let wanted = match bounds {
+            [least, most] if least == most => format!("{least}"),
+            [least, most] => format!("{least} to {most}"),
+        };
+        let what = format!("{wanted} numbers are needed, {length} were given");
+        faults.push(Fault::value(key, value, &what));
         return;
     }
     for (i, item) in items.iter().enumerate() {

@@ -1,12 +1,12 @@
 //! Is a study of the right shape also a possible one?
 
-use crate::axis::{self, Axis};
+use crate::axis;
 use crate::error::{StudyError, StudyErrorKind};
 use crate::key::Key;
 use crate::schema::Node;
 use crate::structure::{Fault, Point, description};
 use crate::study::{Direction, Law, Modes, Reference, Study};
-use crate::{Basis, orbits, plane};
+use crate::{Basis, orbits, plane, values};
 use garde::Validate;
 use toml::Value;
 
@@ -242,13 +242,9 @@ fn base(study: &Study, faults: &mut Vec<Fault>) {
 
 fn sweep(study: &Study, faults: &mut Vec<Fault>) {
     let Some(sweep) = &study.sweep else { return };
-    let axis = Axis {
-        table: "sweep",
-        parameter: &sweep.parameter,
-        from: sweep.from,
-        to: sweep.to,
-    };
-    axis::check(study, &[axis], |_| None, faults);
+    if let Some(axis) = values::axis("sweep", &sweep.axis(), faults) {
+        axis::check(study, &[axis], |_| None, faults);
+    }
     starts(sweep.direction, &sweep.starts, faults);
 }
 

@@ -115,13 +115,16 @@ impl Sheet {
             study.base.frequency = Some(2.5);
             study.base.frequency_ratio = None;
         }
+        if let Some(table) = key.strip_suffix(".values") {
+            list_values(&mut study, table);
+        }
         Self {
             lines: study.to_toml().lines().map(str::to_owned).collect(),
         }
     }
 
     fn header(&self, key: &str) -> usize {
-        let table = table_of(key);
+        let Some(table) = table_of(key) else { return 0 };
         self.lines
             .iter()
             .position(|l| *l == format!("[{table}]") || *l == format!("[[{table}]]"))
@@ -151,9 +154,34 @@ fn named(key: &str) -> String {
     key.replace("jumper.", "jumper.0.")
 }
 
-/// The table that holds the key.
-fn table_of(key: &str) -> &str {
-    key.rsplit_once('.').unwrap().0
+/// The table that holds the key, if it is not the study itself.
+fn table_of(key: &str) -> Option<&str> {
+    Some(key.rsplit_once('.')?.0)
+}
+
+/// The same values, one by one.
+fn list_values(study: &mut Study, table: &str) {
+    let (map, basins) = (study.map.as_mut().unwrap(), study.basins.as_mut().unwrap());
+    let axis = match table {
+        "sweep" => {
+            let sweep = study.sweep.as_mut().unwrap();
+            sweep.values = Some(sweep.values());
+            (sweep.from, sweep.to, sweep.count) = (None, None, None);
+            return;
+        }
+        "attractors" => {
+            let swept = &mut study.attractors;
+            swept.values = swept.sweep().map(|axis| axis.values());
+            (swept.from, swept.to, swept.count) = (None, None, None);
+            return;
+        }
+        "map.x" => &mut map.x,
+        "map.y" => &mut map.y,
+        "basins.x" => &mut basins.x,
+        _ => &mut basins.y,
+    };
+    axis.values = Some(axis.values());
+    (axis.from, axis.to, axis.count) = (None, None, None);
 }
 
 fn name_of(key: &str) -> &str {
@@ -213,6 +241,7 @@ fn is_whole(key: &str) -> bool {
         "doublings",
         "cloud",
         "starts",
+        "format",
     ];
     whole.contains(&name_of(key))
 }
@@ -295,16 +324,16 @@ fn every_missing_key_is_named_with_its_table() {
     for key in keys() {
         let sheet = Sheet::for_key(&key);
         let result = parse("study.toml", &sheet.with(&key, ""), &[]);
-        if !REQUIRED.contains(&key.as_str()) && key != "base.frequency" {
+        let instead = |key: &str| match key.strip_suffix(".values") {
+            Some(table) => Some(format!("{table}.from")),
+            None => (key == "base.frequency").then(|| "base.frequency_ratio".to_owned()),
+        };
+        if !REQUIRED.contains(&key.as_str()) && instead(&key).is_none() {
             assert!(result.is_ok(), "{key}: {}", result.unwrap_err());
             continue;
         }
         let error = result.expect_err(&format!("{key} is not required"));
-        let expected = if key == "base.frequency" {
-            "base.frequency_ratio".to_owned()
-        } else {
-            named(&key)
-        };
+        let expected = instead(&key).unwrap_or_else(|| named(&key));
         assert_eq!(error.kind(), StudyErrorKind::Key, "{error}");
         assert_eq!(error.key(), Some(expected.as_str()), "{error}");
         assert_eq!(error.line(), Some(sheet.header(&key) + 1), "{error}");
@@ -339,8 +368,8 @@ fn every_misspelt_key_is_named_and_the_right_one_suggested() {
                 hit.advice().unwrap()
             );
 
-            let table = table_of(&key);
-            let set = [format!("{table}.{misspelt}=1")];
+            let table = table_of(&key).map_or_else(String::new, |table| format!("{table}."));
+            let set = [format!("{table}{misspelt}=1")];
             let error = parse("study.toml", &sheet.lines.join("\n"), &set).unwrap_err();
             assert_eq!(error.kind(), StudyErrorKind::Override);
             assert_eq!(
@@ -381,6 +410,28 @@ const CONTRADICTIONS: &[(&str, &str)] = &[
     ),
     ("sweep.to=0.1", "different from sweep.from"),
     ("sweep.to=11", "jumper.0.damping_ratio = 11.0"),
+    (
+        "sweep.values=[0.1]",
+        "2 to 100000 numbers are needed, 1 were",
+    ),
+    (
+        "sweep.values=[0.1, 0.3, 0.2]",
+        "sweep.values.2 = 0.2: a value above the one before it, 0.3",
+    ),
+    ("sweep.values=[0.1, nan]", "sweep.values.1 = nan"),
+    (
+        "sweep.values=[0.1, 11]",
+        "sweep.values.1 = 11.0: jumper.0.damping_ratio = 11.0",
+    ),
+    (
+        "map.x.values=[0.1, 0.1]",
+        "different from the one before it, 0.1",
+    ),
+    (
+        "basins.y.values=[2, 1, 3]",
+        "basins.y.values.2 = 3.0: a value below the one before it, 1.0",
+    ),
+    ("attractors.values=[-1, 0.2]", "attractors.values.0 = -1.0"),
     ("sweep.parameter=jumper.1.mass", "there is no jumper.1"),
     (
         "sweep.parameter=plate.modes",
@@ -540,7 +591,7 @@ fn ratio_and_hertz_exclude_each_other() {
     let error = parse("study.toml", &both, &[]).unwrap_err();
     assert_eq!(
         (error.key(), error.line()),
-        (Some("base.frequency"), Some(26))
+        (Some("base.frequency"), Some(28))
     );
 
     let over = |sets: &[&str]| {

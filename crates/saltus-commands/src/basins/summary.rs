@@ -11,11 +11,11 @@ pub(super) fn text(plane: &Plane, report: &Report) -> String {
     let mut text = format!(
         "{} from {} to {}, {} from {} to {}: {}, {} attractors\n",
         plane.x.parameter.label(),
-        plane.x.table.from,
-        plane.x.table.to,
+        plane.x.table.from(),
+        plane.x.table.to(),
         plane.y.parameter.label(),
-        plane.y.table.from,
-        plane.y.table.to,
+        plane.y.table.from(),
+        plane.y.table.to(),
         plane.size(),
         report.attractors.len()
     );

@@ -47,7 +47,7 @@ pub(super) struct AxisReport {
     label: String,
     from: f64,
     to: f64,
-    count: u32,
+    count: usize,
 }
 
 impl PlaneAxis {
@@ -68,9 +68,9 @@ impl PlaneAxis {
             parameter: self.parameter.key(),
             unit: self.parameter.unit(),
             label: self.parameter.label(),
-            from: self.table.from,
-            to: self.table.to,
-            count: self.table.count,
+            from: self.table.from(),
+            to: self.table.to(),
+            count: self.table.count(),
         }
     }
 }

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What `saltus attractors` runs: the attractors reached from quasi-random first states, at the study's own
-/// parameters or at each value of one. Give all of parameter, from, to and count, or none.
+/// parameters or at each value of one: give parameter with from, to and count, or with values, or none of them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Validate)]
 #[serde(deny_unknown_fields, default)]
 pub struct AttractorsTable {
@@ -51,6 +51,12 @@ pub struct AttractorsTable {
     #[garde(range(min = 2, max = 10_000))]
     #[schemars(with = "u32", range(min = 2, max = 10_000))]
     pub count: Option<u32>,
+    /// The values one by one (in the unit of the parameter), ascending or descending, such as [0.1, 0.15, 0.3];
+    /// instead of `from`, `to` and `count`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[garde(length(min = 2, max = 10_000), inner(inner(range(min = -1e13, max = 1e13), custom(finite))))]
+    #[schemars(with = "Vec<f64>", length(min = 2, max = 10_000), inner(range(min = -1e13, max = 1e13)))]
+    pub values: Option<Vec<f64>>,
 }
 
 impl Default for AttractorsTable {
@@ -67,6 +73,7 @@ impl Default for AttractorsTable {
             from: None,
             to: None,
             count: None,
+            values: None,
         }
     }
 }
@@ -85,11 +92,17 @@ impl AttractorsTable {
 
     /// The parameter and its values, if one is swept.
     pub fn sweep(&self) -> Option<AxisTable> {
-        Some(AxisTable {
-            parameter: self.parameter.clone()?,
-            from: self.from?,
-            to: self.to?,
-            count: self.count?,
-        })
+        self.parameter.is_some().then(|| self.axis())
+    }
+
+    /// What the table says of a sweep.
+    pub(crate) fn axis(&self) -> AxisTable {
+        AxisTable {
+            parameter: self.parameter.clone().unwrap_or_default(),
+            from: self.from,
+            to: self.to,
+            count: self.count,
+            values: self.values.clone(),
+        }
     }
 }

@@ -1,44 +1,9 @@
 //! `[map]` and `[basins]`: planes of pixels, and how long to look for the attractor of each.
 
-use crate::validate::finite;
+use super::AxisTable;
 use garde::Validate;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-/// One axis of a plane: a key of the study and its values, equally spaced.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Validate)]
-#[serde(deny_unknown_fields)]
-pub struct AxisTable {
-    /// The key that changes (a word), such as "jumper.damping_ratio" or "base.frequency_ratio"; for
-    /// the table basins "start.z" or "start.v".
-    #[garde(skip)]
-    pub parameter: String,
-    /// First value (in the unit of the parameter), such as 0.1.
-    #[garde(range(min = -1e13, max = 1e13), custom(finite))]
-    pub from: f64,
-    /// Last value (in the unit of the parameter), such as 0.5.
-    #[garde(range(min = -1e13, max = 1e13), custom(finite))]
-    pub to: f64,
-    /// Number of values, both ends included (-, a whole number), such as 64.
-    #[garde(range(min = 2, max = 10_000))]
-    pub count: u32,
-}
-
-impl AxisTable {
-    fn new(parameter: &str, from: f64, to: f64, count: u32) -> Self {
-        Self {
-            parameter: parameter.to_owned(),
-            from,
-            to,
-            count,
-        }
-    }
-
-    /// The values in the order of the pixels, `from` first and `to` last, both exact.
-    pub fn values(&self) -> Vec<f64> {
-        super::sweep::linear(self.from, self.to, self.count)
-    }
-}
 
 /// What `saltus map` runs: the attractor reached from the first state at each pixel of a plane of two parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Validate)]
@@ -111,8 +76,8 @@ impl MapTable {
             transient: default_transient(),
             record: default_record(),
             exponent: default_exponent(),
-            x: AxisTable::new("jumper.damping_ratio", 0.1, 0.5, 64),
-            y: AxisTable::new("base.frequency_ratio", 0.85, 1.15, 64),
+            x: AxisTable::even("jumper.damping_ratio", 0.1, 0.5, 64),
+            y: AxisTable::even("base.frequency_ratio", 0.85, 1.15, 64),
         }
     }
 }
@@ -124,8 +89,8 @@ impl BasinsTable {
             transient: default_transient(),
             record: default_record(),
             exponent: default_exponent(),
-            x: AxisTable::new("start.z", -2.0, 6.0, 64),
-            y: AxisTable::new("start.v", -4.0, 4.0, 64),
+            x: AxisTable::even("start.z", -2.0, 6.0, 64),
+            y: AxisTable::even("start.v", -4.0, 4.0, 64),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The study file as records, one table each. The doc comments are the descriptions of the schema.
 
 mod attractors;
+mod axis;
 mod base;
 mod continuation;
 mod jumper;
@@ -12,10 +13,11 @@ mod run;
 mod sweep;
 
 pub use attractors::AttractorsTable;
+pub use axis::AxisTable;
 pub use base::{BaseTable, GravityTable, Reference};
 pub use continuation::{ContinueTable, SecondTable};
 pub use jumper::{ContactTable, JumperTable, Law, StartTable};
-pub use map::{AxisTable, BasinsTable, MapTable};
+pub use map::{BasinsTable, MapTable};
 pub use modes::{ModeLists, Modes};
 pub use orbit::{LyapunovTable, OrbitTable};
 pub use plate::{Basis, Inertia, PlateTable};
@@ -25,11 +27,18 @@ pub use sweep::{Direction, SweepTable};
 use garde::Validate;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
 
 /// A saltus study: a plate, the people on it, the base motion under it, and what to compute. SI units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Validate)]
 #[serde(deny_unknown_fields)]
 pub struct Study {
+    /// Format of the file (-, a whole number), such as 1: it grows when a key gets another name or meaning, and a
+    /// saltus that is too old for a file says so.
+    #[serde(default = "current_format")]
+    #[garde(range(min = 1, max = Study::FORMAT))]
+    #[schemars(range(min = 1, max = 1))]
+    pub format: u32,
     /// The plate.
     #[garde(dive)]
     pub plate: PlateTable,
@@ -93,12 +102,20 @@ pub struct Study {
     pub attractors: AttractorsTable,
 }
 
+fn current_format() -> u32 {
+    Study::FORMAT
+}
+
 impl Study {
+    /// The format that this version writes, and the newest it reads.
+    pub const FORMAT: u32 = 1;
+
     /// The case of DP section 3 with ζ_h = 0.3 and Ω equal to the body's frequency on the flexible
     /// plate, the sweep of DP Fig. 2b, its branches of orbits, a map, basins and attractors.
     /// [`paper_template`](crate::paper_template) explains it.
     pub fn paper() -> Self {
         Self {
+            format: Self::FORMAT,
             plate: PlateTable::paper(),
             jumper: vec![JumperTable::paper()],
             contact: ContactTable {
@@ -123,5 +140,20 @@ impl Study {
     pub fn to_toml(&self) -> String {
         toml::to_string(self)
             .expect("tables, lists, words and numbers can always be written as TOML")
+    }
+
+    /// The resolved study as JSON, every default written out. [`Study::from_json`] of it gives the same bits.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(self)
+            .expect("tables, lists, words and numbers can always be written as JSON")
+    }
+
+    /// What a result is known by: SHA-256 of [`Study::to_toml`], in hexadecimal.
+    ///
+    /// Equal studies have equal hashes however they were written. A version of saltus that knows more keys may
+    /// write more of them, and then has other hashes.
+    pub fn hash(&self) -> String {
+        let digest = Sha256::digest(self.to_toml());
+        digest.iter().map(|byte| format!("{byte:02x}")).collect()
     }
 }

@@ -1,27 +1,43 @@
 //! `[sweep]`: one parameter, its values, and how the state goes from one to the next.
 
-use crate::validate::finite;
+use super::AxisTable;
+use super::axis::either_way;
+use crate::validate::{finite, finite_if_given};
 use garde::Validate;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What `saltus sweep` runs.
+/// What `saltus sweep` runs. Give from, to and count for equal distances, or the values themselves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Validate)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = either_way()))]
 pub struct SweepTable {
     /// The key that changes (a word), such as "jumper.damping_ratio" for every jumper,
     /// "jumper.0.mass" for one, or "base.frequency_ratio".
     #[garde(skip)]
     pub parameter: String,
     /// First value (in the unit of the parameter), such as 0.1.
-    #[garde(range(min = -1e13, max = 1e13), custom(finite))]
-    pub from: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[garde(range(min = -1e13, max = 1e13), custom(finite_if_given))]
+    #[schemars(with = "f64", range(min = -1e13, max = 1e13))]
+    pub from: Option<f64>,
     /// Last value (in the unit of the parameter), such as 0.5.
-    #[garde(range(min = -1e13, max = 1e13), custom(finite))]
-    pub to: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[garde(range(min = -1e13, max = 1e13), custom(finite_if_given))]
+    #[schemars(with = "f64", range(min = -1e13, max = 1e13))]
+    pub to: Option<f64>,
     /// Number of values, both ends included (-, a whole number), such as 401.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[garde(range(min = 2, max = 10_000_000))]
-    pub count: u32,
+    #[schemars(with = "u32", range(min = 2, max = 10_000_000))]
+    pub count: Option<u32>,
+    /// The values one by one (in the unit of the parameter), ascending or descending, such as [0.1, 0.15, 0.3];
+    /// instead of `from`, `to` and `count`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    // a longer list would not fit in a study file
+    #[garde(length(min = 2, max = 100_000), inner(inner(range(min = -1e13, max = 1e13), custom(finite))))]
+    #[schemars(with = "Vec<f64>", length(min = 2, max = 100_000), inner(range(min = -1e13, max = 1e13)))]
+    pub values: Option<Vec<f64>>,
     /// How the state is carried on (a word): "up", "down", "both" or "restarts".
     #[serde(default)]
     #[garde(skip)]
@@ -67,9 +83,10 @@ impl SweepTable {
     pub(super) fn paper() -> Self {
         Self {
             parameter: "jumper.damping_ratio".to_owned(),
-            from: 0.1,
-            to: 0.5,
-            count: 81,
+            from: Some(0.1),
+            to: Some(0.5),
+            count: Some(81),
+            values: None,
             direction: Direction::Both,
             transient: default_transient(),
             record: default_record(),
@@ -79,21 +96,21 @@ impl SweepTable {
         }
     }
 
-    /// The values in ascending order of index, `from` first and `to` last, both exact.
-    pub fn values(&self) -> Vec<f64> {
-        linear(self.from, self.to, self.count)
+    /// The parameter and its values.
+    pub fn axis(&self) -> AxisTable {
+        AxisTable {
+            parameter: self.parameter.clone(),
+            from: self.from,
+            to: self.to,
+            count: self.count,
+            values: self.values.clone(),
+        }
     }
-}
 
-/// Equally spaced values, both ends exact.
-pub(super) fn linear(from: f64, to: f64, count: u32) -> Vec<f64> {
-    let last = count.saturating_sub(1);
-    let at = |i: u32| match i {
-        0 => from,
-        i if i == last => to,
-        i => from + (to - from) * f64::from(i) / f64::from(last),
-    };
-    (0..count).map(at).collect()
+    /// The values in the order of the file, as [`AxisTable::values`].
+    pub fn values(&self) -> Vec<f64> {
+        self.axis().values()
+    }
 }
 
 /// How the state goes from one value to the next.
