@@ -1,0 +1,28 @@
+//! The native module of the Python package `saltus`: hands arrays in and out, and computes beside Python.
+//!
+//! What a user sees is in `python/saltus`; nothing here is public but to that package.
+
+mod error;
+mod running;
+mod study;
+
+use pyo3::prelude::*;
+
+/// The native side of saltus. Everything in it is reached through the package's own modules.
+#[pymodule]
+mod _native {
+    #[pymodule_export]
+    use crate::running::{count, shut_down};
+    #[pymodule_export]
+    use crate::study::{check_study, paper_template, schema};
+
+    use pyo3::prelude::*;
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+        let at_exit = module.py().import("atexit")?;
+        at_exit.call_method1("register", (module.getattr("shut_down")?,))?;
+        Ok(())
+    }
+}

@@ -1,0 +1,62 @@
+"""What can go wrong, as exceptions."""
+
+from __future__ import annotations
+
+__all__ = [
+    "ComputationError",
+    "DefinitionError",
+    "InternalError",
+    "ResultError",
+    "SaltusError",
+    "StudyError",
+]
+
+
+class SaltusError(Exception):
+    """Anything that saltus refuses or cannot do; the message says what would be right."""
+
+
+class StudyError(SaltusError, ValueError):
+    """A study that cannot be: an unknown key, a value out of range, a contradiction.
+
+    Attributes
+    ----------
+    key : str or None
+        The key concerned, such as ``"jumper.0.mass"``.
+    help : str or None
+        What would be right.
+    line : int or None
+        Line of the study file, from 1, if the problem is in a file.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        key: str | None = None,
+        help: str | None = None,  # noqa: A002 (the word that users know)
+        line: int | None = None,
+    ) -> None:
+        super().__init__(message, key, help, line)
+        self.key = key
+        self.help = help
+        self.line = line
+
+    def __str__(self) -> str:
+        """The message alone."""
+        return str(self.args[0])
+
+
+class DefinitionError(SaltusError, ValueError):
+    """A system of one's own that cannot be, or numbers that do not fit it."""
+
+
+class ComputationError(SaltusError, ArithmeticError):
+    """A question that has no answer, such as an orbit that Newton's method does not find."""
+
+
+class ResultError(SaltusError, OSError):
+    """A result that cannot be read or written."""
+
+
+class InternalError(SaltusError, RuntimeError):
+    """An error of saltus itself: please report it."""
