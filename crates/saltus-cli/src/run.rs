@@ -128,7 +128,7 @@ fn answer(request: &Request, study: &Study, how: How) -> Result<(), Ending> {
         // refused before a long computation, but staged after it: a killed one leaves nothing behind
         drop(Folder::stage(out, study, &context)?);
     }
-    let answer = request.ask(study, &context)?;
+    let mut answer = request.ask(study, &context)?;
     if let Some(out) = &how.output.out {
         write(request, answer.as_ref(), study, out, &context)?;
     }

@@ -90,7 +90,7 @@ pub trait Answer: Send + Sync {
     ///
     /// # Errors
     /// [`Failure::Results`] if they cannot be removed.
-    fn stored(self: Box<Self>) -> Result<(), Failure> {
+    fn stored(&mut self) -> Result<(), Failure> {
         Ok(())
     }
 }

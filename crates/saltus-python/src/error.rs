@@ -1,13 +1,37 @@
 //! What goes wrong in Rust, as the exceptions of `saltus._errors`.
 
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::import_exception;
 use pyo3::prelude::*;
+use saltus_commands::Failure;
 use saltus_config::StudyError as Problem;
+use saltus_results::ResultsError;
 
 import_exception!(saltus._errors, StudyError);
 import_exception!(saltus._errors, DefinitionError);
 import_exception!(saltus._errors, ComputationError);
+import_exception!(saltus._errors, ResultError);
 import_exception!(saltus._errors, InternalError);
+
+/// Why a question has no answer.
+pub(crate) fn of(failure: &Failure) -> PyErr {
+    let text = match failure.help() {
+        Some(help) => format!("{failure} ({help})"),
+        None => failure.to_string(),
+    };
+    match failure {
+        Failure::Study(problem) => of_study(problem),
+        Failure::Lost(reason) => of(reason),
+        Failure::Refused { help, .. } => {
+            StudyError::new_err((text, None::<String>, help.clone(), None::<usize>))
+        }
+        Failure::Computation { .. } | Failure::Results(ResultsError::Png { .. }) => {
+            of_computation(text)
+        }
+        Failure::Results(_) | Failure::Work { .. } => ResultError::new_err((text,)),
+        Failure::Interrupted | Failure::Suspended { .. } => PyKeyboardInterrupt::new_err((text,)),
+    }
+}
 
 /// A study's problem with the key, what would be right, and the line; further ones follow in the text.
 pub(crate) fn of_study(problem: &Problem) -> PyErr {

@@ -2,6 +2,7 @@
 //!
 //! What a user sees is in `python/saltus`; nothing here is public but to that package.
 
+mod answer;
 mod error;
 mod running;
 mod study;
@@ -12,9 +13,11 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
+    use crate::answer::{Answer, Figure, ask, program};
+    #[pymodule_export]
     use crate::running::{count, shut_down};
     #[pymodule_export]
-    use crate::study::{check_study, paper_template, schema};
+    use crate::study::{describe, load, paper, paper_template, parse, resolve, schema};
 
     use pyo3::prelude::*;
 

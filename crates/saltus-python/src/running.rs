@@ -13,6 +13,7 @@ use std::time::Duration;
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use saltus_commands::{Stage, Watch};
 
 use crate::error::InternalError;
 
@@ -24,63 +25,116 @@ const TICKS_PER_REPORT: u32 = 2;
 const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Who wants to hear how far the work is: a callable taking what is done, how many, and of how many (or None).
-pub(crate) struct Progress<'a> {
-    pub(crate) call: Option<Py<PyAny>>,
-    pub(crate) what: &'a str,
-    pub(crate) total: Option<u64>,
+pub(crate) type Listener = Option<Py<PyAny>>;
+
+/// Where the work writes how far it has come, and what is worth knowing.
+#[derive(Default)]
+pub(crate) struct Board {
+    stage: Mutex<Option<Stage>>,
+    notes: Mutex<Vec<String>>,
 }
 
-impl Progress<'_> {
-    fn report(&self, py: Python<'_>, done: u64) -> PyResult<()> {
-        match &self.call {
-            Some(call) => call.call1(py, (self.what, done, self.total)).map(drop),
-            None => Ok(()),
+impl Board {
+    /// What was noted since the last call.
+    pub(crate) fn notes(&self) -> Vec<String> {
+        std::mem::take(&mut *lock(&self.notes))
+    }
+
+    fn report(&self, py: Python<'_>, listener: &Listener) -> PyResult<()> {
+        // not held while Python runs
+        let stage = lock(&self.stage).clone();
+        match (listener, stage) {
+            (Some(call), Some(stage)) => {
+                let done = stage.done.load(Ordering::Relaxed);
+                call.call1(py, (stage.what, done, stage.total)).map(drop)
+            }
+            _ => Ok(()),
         }
     }
 }
 
-/// Runs `work` on another thread with Python released. It gets a flag that says stop and a counter of what is
-/// done; it must look at the former now and then.
+impl Watch for Board {
+    fn begin(&self, stage: Stage) {
+        *lock(&self.stage) = Some(stage);
+    }
+
+    /// The last number stays to be seen.
+    fn end(&self) {}
+
+    fn note(&self, text: &str) {
+        lock(&self.notes).push(text.to_owned());
+    }
+}
+
+/// Long work of one kind.
+pub(crate) struct Progress<'a> {
+    pub(crate) call: Listener,
+    pub(crate) what: &'a str,
+    pub(crate) total: Option<u64>,
+}
+
+/// As [`attended`], for work of one kind, which gets a flag that says stop and a counter of what is done.
 ///
 /// # Errors
-/// What a signal handler or the progress function raises, such as KeyboardInterrupt, after the work has
-/// stopped; `InternalError` if the work panics.
+/// As [`attended`].
 pub(crate) fn run<T: Send>(
     py: Python<'_>,
     progress: &Progress<'_>,
     work: impl FnOnce(&AtomicBool, &AtomicU64) -> T + Send,
 ) -> PyResult<T> {
+    let board = Board::default();
+    let done: Arc<AtomicU64> = Arc::default();
+    board.begin(Stage {
+        what: progress.what.to_owned(),
+        total: progress.total,
+        done: Arc::clone(&done),
+    });
+    attended(py, &progress.call, &board, |stop| work(stop, &done))
+}
+
+/// Runs `work` on another thread with Python released. It gets a flag that says stop, at which it must look now
+/// and then.
+///
+/// # Errors
+/// What a signal handler or the listener raises, such as KeyboardInterrupt, after the work has stopped;
+/// `InternalError` if the work panics.
+pub(crate) fn attended<T: Send>(
+    py: Python<'_>,
+    listener: &Listener,
+    board: &Board,
+    work: impl FnOnce(&Arc<AtomicBool>) -> T + Send,
+) -> PyResult<T> {
     let running = Running::new()?;
-    let (stop, done) = (&*running.stop, AtomicU64::new(0));
+    let stop = &running.stop;
     let (answer, raised) = py.detach(|| {
         thread::scope(|scope| {
             let (working, ended) = sync_channel::<()>(0);
             let worker = scope.spawn(|| {
                 let _working = working;
-                work(stop, &done)
+                work(stop)
             });
-            let raised = attend(&ended, progress, &done).err();
+            let raised = attend(&ended, listener, board).err();
             if raised.is_some() {
-                stop.store(true, Ordering::Relaxed);
+                stop.store(true, Ordering::SeqCst);
             }
             (worker.join(), raised)
         })
     });
     let answer = answer.map_err(|panic| broken(&*panic))?;
     raised.map_or(Ok(()), Err)?;
-    progress.report(py, done.into_inner())?;
+    board.report(py, listener)?;
     Ok(answer)
 }
 
 /// Waits for the end of the work; what Python raises meanwhile ends the wait.
-fn attend(ended: &Receiver<()>, progress: &Progress<'_>, done: &AtomicU64) -> PyResult<()> {
+fn attend(ended: &Receiver<()>, listener: &Listener, board: &Board) -> PyResult<()> {
     let mut ticks = 0;
     while ended.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
         ticks += 1;
         let look = |py: Python<'_>| {
             py.check_signals()?;
             if ticks % TICKS_PER_REPORT == 0 {
-                progress.report(py, done.load(Ordering::Relaxed))?;
+                board.report(py, listener)?;
             }
             Ok::<(), PyErr>(())
         };
@@ -88,6 +142,10 @@ fn attend(ended: &Receiver<()>, progress: &Progress<'_>, done: &AtomicU64) -> Py
         Python::try_attach(look).unwrap_or(Ok(()))?;
     }
     Ok(())
+}
+
+fn lock<T>(what: &Mutex<T>) -> MutexGuard<'_, T> {
+    what.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn broken(panic: &(dyn Any + Send)) -> PyErr {
@@ -120,7 +178,7 @@ static LIST: Mutex<List> = Mutex::new(List {
 });
 
 fn list() -> MutexGuard<'static, List> {
-    LIST.lock().unwrap_or_else(PoisonError::into_inner)
+    lock(&LIST)
 }
 
 /// A place on the list, left when dropped.

@@ -1,25 +1,58 @@
-//! Study files: checked as the program checks them.
+//! Studies: checked and resolved as the program does it.
 
 use pyo3::prelude::*;
+use saltus_config::{Study, StudyError};
+use std::path::PathBuf;
 
 use crate::error::of_study;
 
-/// Checks the text of a study file with overrides such as `jumper.mass=80`; `name` stands for it in messages.
-#[pyfunction]
-pub(crate) fn check_study(name: &str, text: &str, overrides: Vec<String>) -> PyResult<()> {
-    match saltus_config::parse(name, text, &overrides) {
-        Ok(_) => Ok(()),
-        Err(problem) => Err(of_study(&problem)),
-    }
+/// A study in the forms that Python needs: JSON with every default written out, the same as TOML, its hash.
+type Resolved = (String, String, String);
+
+fn resolved(study: Result<Study, StudyError>) -> PyResult<Resolved> {
+    let study = study.map_err(|problem| of_study(&problem))?;
+    Ok((study.to_json(), study.to_toml(), study.hash()))
 }
 
-/// The study of the paper, as the text of a study file.
+/// Checks the study in a JSON text, with overrides such as `jumper.mass=80`.
+#[pyfunction]
+pub(crate) fn resolve(json: &str, overrides: Vec<String>) -> PyResult<Resolved> {
+    resolved(Study::from_json(json, &overrides))
+}
+
+/// Checks the study in a file, with overrides.
+#[pyfunction]
+pub(crate) fn load(path: PathBuf, overrides: Vec<String>) -> PyResult<Resolved> {
+    resolved(saltus_config::load(path, &overrides))
+}
+
+/// Checks the study in the text of a study file, with overrides; `name` stands for it in messages.
+#[pyfunction]
+pub(crate) fn parse(name: &str, text: &str, overrides: Vec<String>) -> PyResult<Resolved> {
+    resolved(saltus_config::parse(name, text, &overrides))
+}
+
+/// The study of the paper.
+#[pyfunction]
+pub(crate) fn paper() -> PyResult<Resolved> {
+    resolved(Ok(Study::paper()))
+}
+
+/// The commented study file of the paper's case.
 #[pyfunction]
 pub(crate) fn paper_template() -> String {
     saltus_config::paper_template()
 }
 
-/// The JSON schema of the study file.
+/// What a study describes, in words, and what in it is probably not meant.
+#[pyfunction]
+pub(crate) fn describe(json: &str) -> PyResult<(String, Vec<String>)> {
+    let study = Study::from_json(json, &[]).map_err(|problem| of_study(&problem))?;
+    let text = saltus_commands::describe(&study).map_err(|failure| crate::error::of(&failure))?;
+    Ok((text, saltus_commands::warnings(&study)))
+}
+
+/// The JSON Schema of the study file.
 #[pyfunction]
 pub(crate) fn schema() -> String {
     saltus_config::schema().to_string()

@@ -84,7 +84,7 @@ pub(crate) fn ask(
         catalogue: Catalogue::default(),
         number: Vec::new(),
     };
-    let kept = plane::run(("basins", study, &plane), context, start_at, &mut finding)?;
+    let mut kept = plane::run(("basins", study, &plane), context, start_at, &mut finding)?;
     let mut basins = finding.ranked();
     if let Err(failure) = basins.layers.refuse_if_all_lost() {
         return kept.remove().and(Err(failure));
@@ -178,7 +178,7 @@ impl Answer for Found {
         self.kept.path()
     }
 
-    fn stored(self: Box<Self>) -> Result<(), Failure> {
+    fn stored(&mut self) -> Result<(), Failure> {
         self.kept.remove()
     }
 }

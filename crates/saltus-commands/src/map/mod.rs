@@ -50,7 +50,7 @@ pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, F
         Ok((model, start))
     };
     let mut layers = Layers::new(study.jumper.len());
-    let kept = plane::run(("map", study, &plane), context, start_at, &mut layers)?;
+    let mut kept = plane::run(("map", study, &plane), context, start_at, &mut layers)?;
     if let Err(failure) = layers.refuse_if_all_lost() {
         return kept.remove().and(Err(failure));
     }
@@ -106,7 +106,7 @@ impl Answer for Map {
         self.kept.path()
     }
 
-    fn stored(self: Box<Self>) -> Result<(), Failure> {
+    fn stored(&mut self) -> Result<(), Failure> {
         self.kept.remove()
     }
 }

@@ -170,8 +170,8 @@ impl Kept {
     }
 
     /// Removes the pieces: the results are there.
-    pub(crate) fn remove(self) -> Result<(), Failure> {
-        Ok(self.store.map_or(Ok(()), PieceStore::remove)?)
+    pub(crate) fn remove(&mut self) -> Result<(), Failure> {
+        Ok(self.store.take().map_or(Ok(()), PieceStore::remove)?)
     }
 
     /// What to say after an interruption.

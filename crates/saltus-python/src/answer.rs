@@ -1,0 +1,316 @@
+//! Questions of a study file and what was found, as `saltus_commands` has them.
+
+use crate::error;
+use crate::running::{Board, Listener, attended};
+use numpy::{IntoPyArray, PyArrayMethods};
+use pyo3::IntoPyObjectExt;
+use pyo3::exceptions::PyUserWarning;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList, PyTuple};
+use saltus_commands::{
+    Answer as Found, Context, Failure, Fill, Folder, Keep, Request, Rows, Store,
+};
+use saltus_config::Study;
+use saltus_results::{Attribute, Column, Columns, Dataset, Figure as Drawing, Values, Variable};
+use std::ffi::CString;
+use std::path::{Path, PathBuf};
+
+/// What was found, with what was asked.
+#[pyclass(frozen, module = "saltus._native")]
+pub(crate) struct Answer {
+    request: Request,
+    study: Study,
+    found: Box<dyn Found>,
+}
+
+/// Asks; `request` and `study` are JSON. With `out` the folder of results is written too, and what is finished of
+/// a long computation is kept beside it until then.
+#[pyfunction]
+#[pyo3(signature = (request, study, *, out=None, resume=false, threads=0, progress=None))]
+pub(crate) fn ask(
+    py: Python<'_>,
+    request: &str,
+    study: &str,
+    out: Option<PathBuf>,
+    resume: bool,
+    threads: usize,
+    progress: Listener,
+) -> PyResult<Answer> {
+    let request: Request = serde_json::from_str(request).map_err(error::of_definition)?;
+    let study = Study::from_json(study, &[]).map_err(|problem| error::of_study(&problem))?;
+    let board = Board::default();
+    let answer = attended(py, &progress, &board, |stop| {
+        let context = Context {
+            threads,
+            stop: stop.clone(),
+            watch: &board,
+            keep: out.clone().map(|out| Keep { out, resume }),
+        };
+        asked(request, &study, out.as_deref(), &context)
+    })?;
+    for note in board.notes() {
+        let note = CString::new(note).unwrap_or_default();
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &note, 2)?;
+    }
+    answer.map_err(|failure| error::of(&failure))
+}
+
+fn asked(
+    request: Request,
+    study: &Study,
+    out: Option<&Path>,
+    context: &Context,
+) -> Result<Answer, Failure> {
+    let study = request.study(study)?;
+    if let Some(out) = out {
+        // refused before a long computation
+        drop(Folder::stage(out, &study, context)?);
+    }
+    let mut found = request.ask(&study, context)?;
+    if let Some(out) = out {
+        let mut folder = Folder::stage(out, &study, context)?;
+        found.store(&request, &mut folder)?;
+        folder.commit()?;
+        found.stored()?;
+    }
+    Ok(Answer {
+        request,
+        study,
+        found,
+    })
+}
+
+#[pymethods]
+impl Answer {
+    /// The command.
+    #[getter]
+    fn command(&self) -> &'static str {
+        self.request.name()
+    }
+
+    /// The study it is about, as JSON, TOML and hash.
+    #[getter]
+    fn study(&self) -> (String, String, String) {
+        (
+            self.study.to_json(),
+            self.study.to_toml(),
+            self.study.hash(),
+        )
+    }
+
+    /// What it says to people.
+    fn summary(&self) -> String {
+        self.found.summary()
+    }
+
+    /// The JSON document.
+    fn document(&self, py: Python<'_>) -> PyResult<String> {
+        let mut text = Vec::new();
+        py.detach(|| self.found.document(&mut text))?;
+        String::from_utf8(text).map_err(error::of_computation)
+    }
+
+    /// Why it is not all that was asked for, if so.
+    fn shortfall(&self) -> Option<String> {
+        self.found.shortfall().map(|failure| failure.to_string())
+    }
+
+    /// Everything but the document: tables, figures, datasets and texts, each a dict by name.
+    fn parts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let mut memory = Memory::default();
+        py.detach(|| self.found.fill(&mut memory))
+            .map_err(|failure| error::of(&failure))?;
+        let (tables, figures) = (PyDict::new(py), PyDict::new(py));
+        let (datasets, texts) = (PyDict::new(py), PyDict::new(py));
+        for (name, columns) in memory.tables {
+            tables.set_item(name, table(py, columns)?)?;
+        }
+        for (name, drawing) in memory.figures {
+            figures.set_item(name, Figure { drawing })?;
+        }
+        for (name, data) in memory.datasets {
+            datasets.set_item(name, dataset(py, data)?)?;
+        }
+        for (name, text) in memory.texts {
+            texts.set_item(name, text)?;
+        }
+        PyTuple::new(py, [tables, figures, datasets, texts])
+    }
+
+    /// Writes the folder of results that the program writes.
+    fn save(&self, py: Python<'_>, out: PathBuf) -> PyResult<()> {
+        let board = Board::default();
+        let saved = attended(py, &None, &board, |stop| {
+            let context = Context {
+                stop: stop.clone(),
+                ..Context::default()
+            };
+            let mut folder = Folder::stage(&out, &self.study, &context)?;
+            self.found.store(&self.request, &mut folder)?;
+            folder.commit().map(drop)
+        })?;
+        saved.map_err(|failure| error::of(&failure))
+    }
+}
+
+/// A figure, drawn when it is asked for.
+#[pyclass(frozen, module = "saltus._native")]
+pub(crate) struct Figure {
+    drawing: Drawing,
+}
+
+#[pymethods]
+impl Figure {
+    /// As SVG.
+    fn svg(&self, py: Python<'_>) -> String {
+        py.detach(|| self.drawing.svg())
+    }
+
+    /// As PNG, with so many pixels per unit of the SVG.
+    fn png(&self, py: Python<'_>, scale: f32) -> PyResult<Vec<u8>> {
+        py.detach(|| self.drawing.png(scale))
+            .map_err(|failure| error::of(&failure.into()))
+    }
+}
+
+/// The parts of an answer, kept.
+#[derive(Default)]
+struct Memory {
+    tables: Vec<(String, Columns)>,
+    figures: Vec<(String, Drawing)>,
+    datasets: Vec<(String, Dataset)>,
+    texts: Vec<(String, Vec<u8>)>,
+}
+
+impl Store for Memory {
+    fn put_text(&mut self, name: &str, fill: Fill) -> Result<(), Failure> {
+        let mut text = Vec::new();
+        // a vector takes everything
+        let _ = fill(&mut text);
+        self.texts.push((name.to_owned(), text));
+        Ok(())
+    }
+
+    fn put_table(
+        &mut self,
+        name: &str,
+        settings: &[(&str, &str)],
+        header: &[String],
+        rows: Rows,
+    ) -> Result<(), Failure> {
+        let header: Vec<&str> = header.iter().map(String::as_str).collect();
+        let mut columns = Columns::new(settings, &header);
+        for row in rows {
+            columns.row(row)?;
+        }
+        self.tables.push((name.to_owned(), columns));
+        Ok(())
+    }
+
+    fn put_figure(&mut self, name: &str, figure: &Drawing) -> Result<(), Failure> {
+        self.figures.push((name.to_owned(), figure.clone()));
+        Ok(())
+    }
+
+    fn put_dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), Failure> {
+        self.datasets.push((name.to_owned(), dataset));
+        Ok(())
+    }
+}
+
+/// Notes on the columns, and the columns.
+fn table<'py>(py: Python<'py>, columns: Columns) -> PyResult<Bound<'py, PyTuple>> {
+    let notes = PyDict::new(py);
+    for (name, note) in columns.settings() {
+        notes.set_item(name, note)?;
+    }
+    let arrays = PyDict::new(py);
+    for (name, column) in columns.into_columns() {
+        let array = match column {
+            Column::F64(values) => values.into_pyarray(py).into_any(),
+            Column::I64(values) => values.into_pyarray(py).into_any(),
+            Column::Flags(values) => PyList::new(py, values)?.into_any(),
+            Column::Text(values) => PyList::new(py, values)?.into_any(),
+            other => return Err(error::of_computation(format!("{other:?}"))),
+        };
+        arrays.set_item(name, array)?;
+    }
+    PyTuple::new(py, [notes, arrays])
+}
+
+/// Attributes, and the variables in their order.
+fn dataset<'py>(py: Python<'py>, dataset: Dataset) -> PyResult<Bound<'py, PyTuple>> {
+    let attributes = attributes(py, dataset.attributes())?;
+    let coordinates: Vec<bool> = dataset
+        .variables()
+        .iter()
+        .map(|variable| dataset.is_coordinate(variable.name()))
+        .collect();
+    let lengths = dataset.dimensions().to_vec();
+    let length = |name: &String| {
+        let known = lengths.iter().find(|(dimension, _)| dimension == name);
+        known.map_or(0, |(_, length)| *length)
+    };
+    let variables = PyList::empty(py);
+    for (variable, coordinate) in dataset.into_variables().into_iter().zip(coordinates) {
+        let shape: Vec<usize> = variable.dimensions().iter().map(length).collect();
+        variables.append(array(py, variable, &shape, coordinate)?)?;
+    }
+    PyTuple::new(py, [attributes.into_any(), variables.into_any()])
+}
+
+/// Name, dimensions, values, attributes, meanings of flags, whether it is a coordinate.
+fn array<'py>(
+    py: Python<'py>,
+    variable: Variable,
+    shape: &[usize],
+    coordinate: bool,
+) -> PyResult<Bound<'py, PyTuple>> {
+    let name = variable.name().to_owned();
+    let dimensions = variable.dimensions().to_vec();
+    let about = attributes(py, variable.attributes())?;
+    let flags = variable.flag_meanings().to_vec();
+    let values = match variable.into_values() {
+        Values::F64(values) => values.into_pyarray(py).reshape(shape)?.into_any(),
+        Values::F32(values) => values.into_pyarray(py).reshape(shape)?.into_any(),
+        Values::I32(values) => values.into_pyarray(py).reshape(shape)?.into_any(),
+        Values::U16(values) => values.into_pyarray(py).reshape(shape)?.into_any(),
+        Values::U8(values) => values.into_pyarray(py).reshape(shape)?.into_any(),
+        Values::I64(values) => values.into_pyarray(py).reshape(shape)?.into_any(),
+        Values::Bool(values) => values.into_pyarray(py).reshape(shape)?.into_any(),
+        Values::Text(values) => PyList::new(py, values)?.into_any(),
+        other => return Err(error::of_computation(format!("{other:?}"))),
+    };
+    PyTuple::new(
+        py,
+        [
+            name.into_bound_py_any(py)?,
+            dimensions.into_bound_py_any(py)?,
+            shape.to_vec().into_bound_py_any(py)?,
+            values,
+            about.into_any(),
+            flags.into_bound_py_any(py)?,
+            coordinate.into_bound_py_any(py)?,
+        ],
+    )
+}
+
+fn attributes<'py>(py: Python<'py>, list: &[(String, Attribute)]) -> PyResult<Bound<'py, PyDict>> {
+    let attributes = PyDict::new(py);
+    for (name, value) in list {
+        match value {
+            Attribute::Text(text) => attributes.set_item(name, text)?,
+            Attribute::Number(number) => attributes.set_item(name, number)?,
+            Attribute::Integer(number) => attributes.set_item(name, number)?,
+            Attribute::Numbers(numbers) => attributes.set_item(name, numbers.clone())?,
+            other => return Err(error::of_computation(format!("{other:?}"))),
+        }
+    }
+    Ok(attributes)
+}
+
+/// The program, with these arguments; gives its exit code.
+#[pyfunction]
+pub(crate) fn program(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> u8 {
+    py.detach(|| saltus_cli::main(arguments))
+}
