@@ -5,6 +5,7 @@
 mod error;
 mod running;
 mod study;
+mod systems;
 
 use pyo3::prelude::*;
 
@@ -15,6 +16,8 @@ mod _native {
     use crate::running::{count, shut_down};
     #[pymodule_export]
     use crate::study::{check_study, paper_template, schema};
+    #[pymodule_export]
+    use crate::systems::{Exponents, Orbit, Program, Trajectories};
 
     use pyo3::prelude::*;
 
