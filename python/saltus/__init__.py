@@ -1,5 +1,29 @@
-"""People who jump on a vibrating plate, and other nonsmooth dynamics."""
+"""People who jump on a vibrating plate: what their motion can do in the long run.
 
+A study (`Study`) says which plate, people and base, and what is asked; a function for each question gives a
+`Result` with NumPy arrays, tables and figures. ``saltus.systems`` takes systems of one's own.
+
+Examples
+--------
+>>> import saltus
+>>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+>>> motion = saltus.simulate(study, periods=50)
+>>> motion["z"].shape
+(50, 1)
+"""
+
+from saltus._commands import (
+    attractors,
+    basins,
+    continue_,
+    frequencies,
+    lyapunov,
+    map,  # noqa: A004 (the word of the program)
+    orbit,
+    reproduce,
+    simulate,
+    sweep,
+)
 from saltus._errors import (
     ComputationError,
     DefinitionError,
@@ -9,13 +33,68 @@ from saltus._errors import (
     StudyError,
 )
 from saltus._native import __version__
+from saltus._results import Figure, Result, Table, Variable
+from saltus._tables import (
+    Attractors,
+    Axis,
+    Base,
+    Basins,
+    Contact,
+    Continue,
+    Gravity,
+    Jumper,
+    Lyapunov,
+    Map,
+    ModeLists,
+    Orbit,
+    Plate,
+    Second,
+    Simulate,
+    Solver,
+    Start,
+    Sweep,
+)
+from saltus.study import Study
 
 __all__ = [
+    "Attractors",
+    "Axis",
+    "Base",
+    "Basins",
     "ComputationError",
+    "Contact",
+    "Continue",
     "DefinitionError",
+    "Figure",
+    "Gravity",
     "InternalError",
+    "Jumper",
+    "Lyapunov",
+    "Map",
+    "ModeLists",
+    "Orbit",
+    "Plate",
+    "Result",
     "ResultError",
     "SaltusError",
+    "Second",
+    "Simulate",
+    "Solver",
+    "Start",
+    "Study",
     "StudyError",
+    "Sweep",
+    "Table",
+    "Variable",
     "__version__",
+    "attractors",
+    "basins",
+    "continue_",
+    "frequencies",
+    "lyapunov",
+    "map",
+    "orbit",
+    "reproduce",
+    "simulate",
+    "sweep",
 ]

@@ -259,7 +259,7 @@ fn dataset<'py>(py: Python<'py>, dataset: Dataset) -> PyResult<Bound<'py, PyTupl
     PyTuple::new(py, [attributes.into_any(), variables.into_any()])
 }
 
-/// Name, dimensions, values, attributes, meanings of flags, whether it is a coordinate.
+/// Name, dimensions, shape, values, attributes, meanings of flags, what stands for no value, whether it is a coordinate.
 fn array<'py>(
     py: Python<'py>,
     variable: Variable,
@@ -270,6 +270,7 @@ fn array<'py>(
     let dimensions = variable.dimensions().to_vec();
     let about = attributes(py, variable.attributes())?;
     let flags = variable.flag_meanings().to_vec();
+    let fill = variable.fill_value();
     let values = match variable.into_values() {
         Values::F64(values) => values.into_pyarray(py).reshape(shape)?.into_any(),
         Values::F32(values) => values.into_pyarray(py).reshape(shape)?.into_any(),
@@ -290,6 +291,7 @@ fn array<'py>(
             values,
             about.into_any(),
             flags.into_bound_py_any(py)?,
+            fill.into_bound_py_any(py)?,
             coordinate.into_bound_py_any(py)?,
         ],
     )

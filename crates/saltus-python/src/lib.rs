@@ -6,6 +6,7 @@ mod answer;
 mod error;
 mod running;
 mod study;
+mod systems;
 
 use pyo3::prelude::*;
 
@@ -18,6 +19,8 @@ mod _native {
     use crate::running::{count, shut_down};
     #[pymodule_export]
     use crate::study::{describe, load, paper, paper_template, parse, resolve, schema};
+    #[pymodule_export]
+    use crate::systems::{Exponents, Orbit, Program, Trajectories};
 
     use pyo3::prelude::*;
 

@@ -1,0 +1,297 @@
+//! Many trajectories of a system, kept as arrays.
+
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::exceptions::PyMemoryError;
+use pyo3::prelude::*;
+use saltus_hybrid::{
+    End, IntegrateError, Leg, Sample, Step, Switch, SwitchKind, System, Task, integrate_all,
+};
+
+use super::blueprint::Blueprint;
+use super::input::Settings;
+use super::program::Members;
+use crate::error::{of_computation, of_definition};
+use crate::running::{Progress, run as run_beside};
+
+/// What is to be kept.
+pub(crate) struct Plan {
+    pub(crate) periods: u64,
+    /// Periods before, of which nothing is kept.
+    pub(crate) transient: u64,
+    /// Samples in each period, the last at its end.
+    pub(crate) per_period: usize,
+    pub(crate) switches: bool,
+}
+
+impl Plan {
+    /// Periods to run, of all members together.
+    pub(crate) fn work(&self, members: &Members) -> u64 {
+        (self.periods.saturating_add(self.transient)).saturating_mul(members.count as u64)
+    }
+}
+
+/// Trajectories as flat arrays, in the order of the members.
+#[pyclass(frozen, get_all, module = "saltus._native")]
+pub(crate) struct Trajectories {
+    /// (members, samples, states); NaN where a trajectory had ended.
+    samples: Py<PyArray1<f64>>,
+    /// (members, samples, units).
+    modes: Py<PyArray1<u8>>,
+    /// (members, states), where each ended.
+    end: Py<PyArray1<f64>>,
+    /// (members, units).
+    end_modes: Py<PyArray1<u8>>,
+    /// Periods completed, of each member.
+    periods: Py<PyArray1<u64>>,
+    steps: Py<PyArray1<u64>>,
+    /// Word and sentence for how each ended.
+    status: Vec<(String, String)>,
+    /// Of each switch: its member,
+    switch_member: Py<PyArray1<u64>>,
+    /// time since the start,
+    switch_time: Py<PyArray1<f64>>,
+    /// unit,
+    switch_unit: Py<PyArray1<u8>>,
+    /// mode left,
+    switch_source: Py<PyArray1<u8>>,
+    /// mode entered,
+    switch_target: Py<PyArray1<u8>>,
+    /// and state just before: (switches, states).
+    switch_state: Py<PyArray1<f64>>,
+}
+
+/// Runs every member.
+pub(crate) fn run(
+    py: Python<'_>,
+    blueprint: &Blueprint,
+    members: &Members,
+    plan: &Plan,
+    settings: &Settings,
+    progress: &Progress<'_>,
+) -> PyResult<Trajectories> {
+    let (states, units) = (blueprint.states(), blueprint.units.len());
+    let rows = usize::try_from(plan.periods)
+        .ok()
+        .and_then(|periods| periods.checked_mul(plan.per_period))
+        .ok_or_else(too_much)?;
+    let mut samples = filled(f64::NAN, members.count, rows, states)?;
+    let mut modes = filled(0u8, members.count, rows, units)?;
+    let options = settings.options();
+    let work = |stop: &AtomicBool, done: &AtomicU64| -> PyResult<Vec<Ended>> {
+        let first = match members.count {
+            0 => return Ok(Vec::new()),
+            _ => blueprint
+                .system(members.parameters.row(0))
+                .map_err(of_definition)?,
+        };
+        let mut kept = samples.chunks_mut((rows * states).max(1));
+        let mut kept_modes = modes.chunks_mut((rows * units).max(1));
+        let member = |index: usize| Member {
+            blueprint,
+            first: &first,
+            members,
+            index,
+            plan,
+            samples: kept.next().unwrap_or_default(),
+            modes: kept_modes.next().unwrap_or_default(),
+            taken: 0,
+            period: first.period(),
+            switches: Switches::default(),
+            end: None,
+            done,
+        };
+        let tasks = (0..members.count).map(member).collect();
+        let ended = integrate_all(&options, tasks, settings.threads, stop).map_err(of_run)?;
+        Ok(ended.into_iter().map(|m| (m.switches, m.end)).collect())
+    };
+    let ended = run_beside(py, progress, work)??;
+    collect(py, ended, states, samples, modes)
+}
+
+fn of_run(error: IntegrateError) -> PyErr {
+    match error {
+        IntegrateError::Option { .. } => pyo3::exceptions::PyValueError::new_err(error.to_string()),
+        other => of_computation(other),
+    }
+}
+
+fn too_much() -> PyErr {
+    PyMemoryError::new_err("the samples do not fit into memory: keep fewer of them")
+}
+
+fn filled<T: Copy>(value: T, members: usize, rows: usize, width: usize) -> PyResult<Vec<T>> {
+    let length = members.checked_mul(rows).and_then(|n| n.checked_mul(width));
+    let length = length.ok_or_else(too_much)?;
+    let mut out = Vec::new();
+    out.try_reserve_exact(length).map_err(|_| too_much())?;
+    out.resize(length, value);
+    Ok(out)
+}
+
+/// The switches of a trajectory.
+#[derive(Default)]
+struct Switches {
+    time: Vec<f64>,
+    unit: Vec<u8>,
+    source: Vec<u8>,
+    target: Vec<u8>,
+    state: Vec<f64>,
+}
+
+type Ended = (Switches, Option<End>);
+
+fn collect(
+    py: Python<'_>,
+    ended: Vec<Ended>,
+    states: usize,
+    samples: Vec<f64>,
+    modes: Vec<u8>,
+) -> PyResult<Trajectories> {
+    let mut all = Switches::default();
+    let (mut member, mut end, mut end_modes) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut periods, mut steps, mut status) = (Vec::new(), Vec::new(), Vec::new());
+    for (index, (mut switches, how)) in ended.into_iter().enumerate() {
+        member.resize(member.len() + switches.time.len(), index as u64);
+        all.time.append(&mut switches.time);
+        all.unit.append(&mut switches.unit);
+        all.source.append(&mut switches.source);
+        all.target.append(&mut switches.target);
+        all.state.append(&mut switches.state);
+        let how = how.ok_or_else(|| of_computation(format!("member {index} did not run")))?;
+        end.extend_from_slice(&how.point.x[..states]);
+        end_modes.extend(how.point.modes.iter().map(|&mode| mode as u8));
+        periods.push(how.periods);
+        steps.push(how.steps);
+        status.push((how.status.name().to_owned(), how.status.to_string()));
+    }
+    Ok(Trajectories {
+        samples: samples.into_pyarray(py).unbind(),
+        modes: modes.into_pyarray(py).unbind(),
+        end: end.into_pyarray(py).unbind(),
+        end_modes: end_modes.into_pyarray(py).unbind(),
+        periods: periods.into_pyarray(py).unbind(),
+        steps: steps.into_pyarray(py).unbind(),
+        status,
+        switch_member: member.into_pyarray(py).unbind(),
+        switch_time: all.time.into_pyarray(py).unbind(),
+        switch_unit: all.unit.into_pyarray(py).unbind(),
+        switch_source: all.source.into_pyarray(py).unbind(),
+        switch_target: all.target.into_pyarray(py).unbind(),
+        switch_state: all.state.into_pyarray(py).unbind(),
+    })
+}
+
+/// One trajectory and what is kept of it.
+struct Member<'a> {
+    blueprint: &'a Blueprint,
+    first: &'a System,
+    members: &'a Members,
+    index: usize,
+    plan: &'a Plan,
+    samples: &'a mut [f64],
+    modes: &'a mut [u8],
+    /// Samples taken of the present period.
+    taken: usize,
+    period: f64,
+    switches: Switches,
+    end: Option<End>,
+    done: &'a AtomicU64,
+}
+
+impl Member<'_> {
+    /// The place of the next sample of a period, counted from 0; none in the transient.
+    fn place(&mut self, period: u64) -> Option<usize> {
+        let kept = period.checked_sub(self.plan.transient)? as usize;
+        let place = kept * self.plan.per_period + self.taken;
+        self.taken += 1;
+        Some(place)
+    }
+
+    fn keep_modes(&mut self, place: usize, modes: &[usize]) {
+        let into = self.modes.chunks_exact_mut(modes.len().max(1)).nth(place);
+        for (out, &mode) in into.into_iter().flatten().zip(modes) {
+            *out = mode as u8;
+        }
+    }
+
+    fn sample_at(&mut self, place: usize) -> &mut [f64] {
+        let states = self.blueprint.states();
+        &mut self.samples[place * states..(place + 1) * states]
+    }
+}
+
+impl Task for Member<'_> {
+    fn begin(&mut self) -> Option<Leg> {
+        let system = self
+            .blueprint
+            .system(self.members.parameters.row(self.index));
+        let system = system.ok()?.sharing(self.first);
+        self.period = system.period();
+        let modes = self.members.modes.row(self.index);
+        Some(Leg {
+            start: system.point(modes, self.members.starts.row(self.index)),
+            system,
+            periods: self.plan.transient + self.plan.periods,
+        })
+    }
+
+    fn sample(&mut self, sample: &Sample<'_>) -> bool {
+        // Rounding may have put an inner sample behind the last step: it is this one then.
+        while self.taken < self.plan.per_period {
+            let Some(place) = self.place(sample.period - 1) else {
+                break;
+            };
+            let states = self.blueprint.states();
+            self.sample_at(place).copy_from_slice(&sample.x[..states]);
+            self.keep_modes(place, sample.modes);
+        }
+        self.taken = 0;
+        self.done.fetch_add(1, Ordering::Relaxed);
+        true
+    }
+
+    fn wants_steps(&self) -> bool {
+        self.plan.per_period > 1
+    }
+
+    fn step(&mut self, step: &Step<'_>) {
+        if step.period < self.plan.transient {
+            return;
+        }
+        while self.taken + 1 < self.plan.per_period {
+            let part = (self.taken + 1) as f64 / self.plan.per_period as f64;
+            let since = part * self.period - step.time;
+            if since > step.length {
+                break;
+            }
+            if let Some(place) = self.place(step.period) {
+                step.state(since, self.sample_at(place));
+                self.keep_modes(place, step.modes);
+            }
+        }
+    }
+
+    fn switch(&mut self, switch: &Switch<'_>) {
+        if let SwitchKind::Mode { from, to } = switch.kind
+            && self.plan.switches
+            && switch.period >= self.plan.transient
+        {
+            let time = switch.period as f64 * self.period + switch.time;
+            self.switches.time.push(time);
+            self.switches.unit.push(switch.unit as u8);
+            self.switches.source.push(from as u8);
+            self.switches.target.push(to as u8);
+            let states = self.blueprint.states();
+            self.switches.state.extend_from_slice(&switch.x[..states]);
+        }
+    }
+
+    fn end(&mut self, end: End) -> Option<Leg> {
+        let left = self.plan.transient + self.plan.periods - end.periods;
+        self.done.fetch_add(left, Ordering::Relaxed);
+        self.end = Some(end);
+        None
+    }
+}

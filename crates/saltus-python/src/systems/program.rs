@@ -1,0 +1,229 @@
+//! A system of a user's own, ready to be asked.
+
+use numpy::PyReadonlyArray2;
+use pyo3::prelude::*;
+
+use super::blueprint::{Blueprint, Clock};
+use super::ensemble::{self, Plan, Trajectories};
+use super::exponents::{self, Exponents};
+use super::formula::Op;
+use super::input::{Definition, Settings, units};
+use super::lower::lower;
+use super::orbit::{self, Orbit, Search};
+use crate::error::of_definition;
+use crate::running::Progress;
+
+/// A system as a program of the engine. It never changes.
+#[pyclass(frozen, module = "saltus._native")]
+pub(crate) struct Program {
+    pub(crate) blueprint: Blueprint,
+    parameters: usize,
+}
+
+/// Trajectories to begin: parameters, states and modes, one row for each.
+pub(crate) struct Members {
+    pub(crate) count: usize,
+    pub(crate) parameters: Rows<f64>,
+    pub(crate) starts: Rows<f64>,
+    pub(crate) modes: Rows<usize>,
+}
+
+/// A matrix, row by row; rows may be empty.
+pub(crate) struct Rows<T> {
+    width: usize,
+    values: Vec<T>,
+}
+
+impl<T: Copy> Rows<T> {
+    pub(crate) fn row(&self, index: usize) -> &[T] {
+        &self.values[index * self.width..(index + 1) * self.width]
+    }
+}
+
+/// A copy, since Python may change the array while we compute.
+fn rows<T: Copy + numpy::Element>(array: &PyReadonlyArray2<'_, T>) -> Rows<T> {
+    let array = array.as_array();
+    Rows {
+        width: array.ncols(),
+        values: array.iter().copied().collect(),
+    }
+}
+
+impl Program {
+    fn members(
+        &self,
+        parameters: &PyReadonlyArray2<'_, f64>,
+        starts: &PyReadonlyArray2<'_, f64>,
+        modes: &PyReadonlyArray2<'_, u8>,
+    ) -> PyResult<Members> {
+        let count = starts.as_array().nrows();
+        let modes = rows(modes);
+        let members = Members {
+            count,
+            parameters: rows(parameters),
+            starts: rows(starts),
+            modes: Rows {
+                width: modes.width,
+                values: modes.values.iter().map(|&mode| usize::from(mode)).collect(),
+            },
+        };
+        let widths = (members.parameters.width, members.starts.width, modes.width);
+        let blueprint = &self.blueprint;
+        let expected = (self.parameters, blueprint.states(), blueprint.units.len());
+        let long = |rows: usize, width: usize| rows == count * width;
+        let full = long(members.parameters.values.len(), widths.0)
+            && long(members.modes.values.len(), widths.2);
+        if widths != expected || !full {
+            return Err(of_definition(format!(
+                "{count} members with {widths:?} parameters, states and units; {expected:?} are needed"
+            )));
+        }
+        for member in 0..count {
+            let row = members.parameters.row(member);
+            let fits = match member {
+                0 => blueprint.system(row).map(drop),
+                _ => blueprint.check(row),
+            };
+            if let Err(reason) = fits {
+                return Err(of_definition(format!("member {member}: {reason}")));
+            }
+        }
+        Ok(members)
+    }
+}
+
+#[pymethods]
+impl Program {
+    /// From operations in which each reads earlier ones, and the places of what they make.
+    #[new]
+    #[pyo3(signature = (*, operations, parameters, rates, forced, clock, units))]
+    fn new(
+        operations: Vec<Op>,
+        parameters: usize,
+        rates: Vec<usize>,
+        forced: bool,
+        clock: usize,
+        units: Vec<Vec<Vec<(usize, f64, usize, Vec<(usize, usize)>, Vec<(usize, u8)>)>>>,
+    ) -> PyResult<Self> {
+        let definition = Definition {
+            ops: operations,
+            rates,
+            clock: if forced {
+                Clock::Forcing(clock)
+            } else {
+                Clock::Interval(clock)
+            },
+            units: self::units(units),
+        };
+        Ok(Self {
+            blueprint: lower(&definition).map_err(of_definition)?,
+            parameters,
+        })
+    }
+
+    /// How many quantities it computes beside its states.
+    #[getter]
+    fn quantities(&self) -> usize {
+        self.blueprint.made
+    }
+
+    /// The forcing period, or the interval, for each row of parameters.
+    fn periods(&self, parameters: PyReadonlyArray2<'_, f64>) -> PyResult<Vec<f64>> {
+        let parameters = parameters.as_array();
+        let row = |row: numpy::ndarray::ArrayView1<'_, f64>| {
+            let system = self
+                .blueprint
+                .system(&row.to_vec())
+                .map_err(of_definition)?;
+            Ok(system.period())
+        };
+        parameters.rows().into_iter().map(row).collect()
+    }
+
+    /// Runs every member and keeps its samples.
+    #[pyo3(signature = (*, parameters, starts, modes, periods, transient, per_period, switches, settings, progress))]
+    #[expect(clippy::too_many_arguments, reason = "named in Python")]
+    fn integrate(
+        &self,
+        py: Python<'_>,
+        parameters: PyReadonlyArray2<'_, f64>,
+        starts: PyReadonlyArray2<'_, f64>,
+        modes: PyReadonlyArray2<'_, u8>,
+        periods: u64,
+        transient: u64,
+        per_period: usize,
+        switches: bool,
+        settings: Settings,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Trajectories> {
+        let members = self.members(&parameters, &starts, &modes)?;
+        let plan = Plan {
+            periods,
+            transient,
+            per_period,
+            switches,
+        };
+        let progress = Progress {
+            call: progress,
+            what: "integrating",
+            total: Some(plan.work(&members)),
+        };
+        ensemble::run(py, &self.blueprint, &members, &plan, &settings, &progress)
+    }
+
+    /// The periodic orbit near one start for each of its periods, or near the orbit of a single start.
+    #[pyo3(signature = (*, parameters, starts, modes, period, tolerance, iterations, settings))]
+    #[expect(clippy::too_many_arguments, reason = "named in Python")]
+    fn find_orbit(
+        &self,
+        py: Python<'_>,
+        parameters: PyReadonlyArray2<'_, f64>,
+        starts: PyReadonlyArray2<'_, f64>,
+        modes: PyReadonlyArray2<'_, u8>,
+        period: usize,
+        tolerance: f64,
+        iterations: usize,
+        settings: Settings,
+    ) -> PyResult<Orbit> {
+        let members = self.members(&parameters, &starts, &modes)?;
+        let search = Search {
+            period,
+            tolerance,
+            iterations,
+        };
+        orbit::find(py, &self.blueprint, &members, &search, &settings)
+    }
+
+    /// The largest exponents of every member.
+    #[pyo3(signature = (*, parameters, starts, modes, periods, transient, count, settings, progress))]
+    #[expect(clippy::too_many_arguments, reason = "named in Python")]
+    fn lyapunov(
+        &self,
+        py: Python<'_>,
+        parameters: PyReadonlyArray2<'_, f64>,
+        starts: PyReadonlyArray2<'_, f64>,
+        modes: PyReadonlyArray2<'_, u8>,
+        periods: u64,
+        transient: u64,
+        count: usize,
+        settings: Settings,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<Exponents> {
+        let members = self.members(&parameters, &starts, &modes)?;
+        let progress = Progress {
+            call: progress,
+            what: "exponents",
+            total: Some((periods + transient).saturating_mul(members.count as u64)),
+        };
+        let length = (transient, periods);
+        exponents::run(
+            py,
+            &self.blueprint,
+            &members,
+            length,
+            count,
+            &settings,
+            &progress,
+        )
+    }
+}

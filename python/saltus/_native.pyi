@@ -1,0 +1,175 @@
+"""The native module; see crates/saltus-python."""
+
+from collections.abc import Callable, Sequence
+from os import PathLike
+from typing import Any, TypeAlias, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+__version__: str
+
+_Progress: TypeAlias = Callable[[str, int, int | None], object] | None
+_Operation: TypeAlias = tuple[str, list[int], float]
+_Transition: TypeAlias = tuple[int, float, int, list[tuple[int, int]], list[tuple[int, int]]]
+
+_Resolved: TypeAlias = tuple[str, str, str]
+_Array: TypeAlias = tuple[
+    str, list[str], list[int], Any, dict[str, Any], list[tuple[int, str]], int | None, bool
+]
+Parts: TypeAlias = tuple[
+    dict[str, tuple[dict[str, str], dict[str, Any]]],
+    dict[str, Figure],
+    dict[str, tuple[dict[str, Any], list[_Array]]],
+    dict[str, bytes],
+]
+
+def ask(
+    request: str,
+    study: str,
+    *,
+    out: PathLike[str] | None = None,
+    resume: bool = False,
+    threads: int = 0,
+    progress: _Progress = None,
+) -> Answer: ...
+def count(total: int, *, panics: bool = False, progress: _Progress = None) -> int: ...
+def describe(json: str) -> tuple[str, list[str]]: ...
+def load(path: PathLike[str], overrides: Sequence[str]) -> _Resolved: ...
+def paper() -> _Resolved: ...
+def paper_template() -> str: ...
+def parse(name: str, text: str, overrides: Sequence[str]) -> _Resolved: ...
+def program(arguments: Sequence[str]) -> int: ...
+def resolve(json: str, overrides: Sequence[str]) -> _Resolved: ...
+def schema() -> str: ...
+def shut_down() -> None: ...
+
+@final
+class Answer:
+    @property
+    def command(self) -> str: ...
+    @property
+    def study(self) -> _Resolved: ...
+    def summary(self) -> str: ...
+    def document(self) -> str: ...
+    def shortfall(self) -> str | None: ...
+    def parts(self) -> Parts: ...
+    def save(self, out: PathLike[str]) -> None: ...
+
+@final
+class Figure:
+    def svg(self) -> str: ...
+    def png(self, scale: float) -> bytes: ...
+
+@final
+class Program:
+    def __new__(
+        cls,
+        *,
+        operations: Sequence[_Operation],
+        parameters: int,
+        rates: Sequence[int],
+        forced: bool,
+        clock: int,
+        units: Sequence[Sequence[Sequence[_Transition]]],
+    ) -> Program: ...
+    @property
+    def quantities(self) -> int: ...
+    def periods(self, parameters: NDArray[np.float64]) -> list[float]: ...
+    def integrate(
+        self,
+        *,
+        parameters: NDArray[np.float64],
+        starts: NDArray[np.float64],
+        modes: NDArray[np.uint8],
+        periods: int,
+        transient: int,
+        per_period: int,
+        switches: bool,
+        settings: object,
+        progress: _Progress,
+    ) -> Trajectories: ...
+    def find_orbit(
+        self,
+        *,
+        parameters: NDArray[np.float64],
+        starts: NDArray[np.float64],
+        modes: NDArray[np.uint8],
+        period: int,
+        tolerance: float,
+        iterations: int,
+        settings: object,
+    ) -> Orbit: ...
+    def lyapunov(
+        self,
+        *,
+        parameters: NDArray[np.float64],
+        starts: NDArray[np.float64],
+        modes: NDArray[np.uint8],
+        periods: int,
+        transient: int,
+        count: int,
+        settings: object,
+        progress: _Progress,
+    ) -> Exponents: ...
+
+@final
+class Trajectories:
+    @property
+    def samples(self) -> NDArray[np.float64]: ...
+    @property
+    def modes(self) -> NDArray[np.uint8]: ...
+    @property
+    def end(self) -> NDArray[np.float64]: ...
+    @property
+    def end_modes(self) -> NDArray[np.uint8]: ...
+    @property
+    def periods(self) -> NDArray[np.uint64]: ...
+    @property
+    def steps(self) -> NDArray[np.uint64]: ...
+    @property
+    def status(self) -> list[tuple[str, str]]: ...
+    @property
+    def switch_member(self) -> NDArray[np.uint64]: ...
+    @property
+    def switch_time(self) -> NDArray[np.float64]: ...
+    @property
+    def switch_unit(self) -> NDArray[np.uint8]: ...
+    @property
+    def switch_source(self) -> NDArray[np.uint8]: ...
+    @property
+    def switch_target(self) -> NDArray[np.uint8]: ...
+    @property
+    def switch_state(self) -> NDArray[np.float64]: ...
+
+@final
+class Orbit:
+    @property
+    def period(self) -> int: ...
+    @property
+    def places(self) -> NDArray[np.float64]: ...
+    @property
+    def modes(self) -> NDArray[np.uint8]: ...
+    @property
+    def multipliers(self) -> list[tuple[float, float]]: ...
+    @property
+    def monodromy(self) -> NDArray[np.float64]: ...
+    @property
+    def switches(self) -> list[tuple[float, int, int, int]]: ...
+    @property
+    def residual(self) -> float: ...
+    @property
+    def iterations(self) -> int: ...
+
+@final
+class Exponents:
+    @property
+    def exponents(self) -> NDArray[np.float64]: ...
+    @property
+    def standard_errors(self) -> NDArray[np.float64]: ...
+    @property
+    def dimension(self) -> NDArray[np.float64]: ...
+    @property
+    def dimension_error(self) -> NDArray[np.float64]: ...
+    @property
+    def status(self) -> list[tuple[str, str]]: ...

@@ -1,0 +1,88 @@
+"""How far long work is: a bar in a terminal or notebook, or a function of the user's own."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["Progress", "ProgressFunction", "watched"]
+
+#: Work that takes less shows no bar (s).
+DELAY = 1.0
+
+
+class ProgressFunction(Protocol):
+    """What is called some ten times a second while saltus computes."""
+
+    def __call__(self, what: str, done: int, total: int | None, /) -> object:
+        """Take what is being done, how much of it is done, and how much there is, if known."""
+
+
+#: ``None``: a bar if somebody looks at the standard error output; ``True``: always; ``False``: never.
+Progress = bool | None | ProgressFunction
+
+
+@contextmanager
+def watched(progress: Progress) -> Iterator[ProgressFunction | None]:
+    """Give the function to be called, and close what it shows in the end."""
+    if progress is None:
+        progress = sys.stderr.isatty() or _in_notebook()
+    if callable(progress):
+        yield progress
+    elif progress:
+        bar = _Bar()
+        try:
+            yield bar
+        finally:
+            bar.close()
+    else:
+        yield None
+
+
+def _in_notebook() -> bool:
+    ipython = sys.modules.get("IPython")
+    return ipython is not None and getattr(ipython.get_ipython(), "kernel", None) is not None
+
+
+class _Bar:
+    """A bar by tqdm, or one line that is rewritten where there is no tqdm."""
+
+    def __init__(self) -> None:
+        self._bar: Any = None
+        self._line = False
+
+    def __call__(self, what: str, done: int, total: int | None, /) -> None:
+        tqdm = _tqdm()
+        if tqdm is None:
+            part = f"{done}" if not total else f"{100 * done // total} %"
+            sys.stderr.write(f"\r{what}: {part}")
+            sys.stderr.flush()
+            self._line = True
+            return
+        if self._bar is None:
+            self._bar = tqdm(desc=what, total=total, delay=DELAY, leave=False)
+        self._bar.update(done - self._bar.n)
+
+    def close(self) -> None:
+        """Take the bar away."""
+        if self._bar is not None:
+            self._bar.close()
+        if self._line:
+            sys.stderr.write("\r\x1b[K")
+            sys.stderr.flush()
+
+
+def _tqdm() -> Any:
+    try:
+        with warnings.catch_warnings():
+            # In a notebook without ipywidgets it says so, and shows a plain bar.
+            warnings.simplefilter("ignore")
+            from tqdm.auto import tqdm
+    except ImportError:
+        return None
+    return tqdm

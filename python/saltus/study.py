@@ -1,0 +1,234 @@
+"""The study: everything a study file says, as Python objects with the same names and units."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import math
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from saltus import _native
+from saltus._tables import (
+    TABLES,
+    Attractors,
+    Base,
+    Basins,
+    Contact,
+    Continue,
+    Gravity,
+    Jumper,
+    Lyapunov,
+    Map,
+    Orbit,
+    Plate,
+    Simulate,
+    Solver,
+    Start,
+    Sweep,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+__all__ = ["Study", "StudyLike", "as_study"]
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, repr=False)
+class Study:
+    """A plate, the people on it, the base that shakes it, and what is asked about them.
+
+    What is given is checked at once, as the program checks a study file; what is left out has the default that
+    its description tells. All of it can then be read off: a study in hand is valid, whole and never changes.
+
+    Any array-like serves where a list of numbers is needed.
+
+    Raises
+    ------
+    StudyError
+        If something is wrong; its ``key`` says what, its ``help`` what would be right.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> study = saltus.Study.paper().set({"jumper.damping_ratio": 0.28})
+    >>> study.jumper[0].damping_ratio
+    0.28
+    """
+
+    plate: Plate
+    base: Base
+    contact: Contact
+    jumper: Sequence[Jumper] = ()
+    gravity: Gravity | None = None
+    start: Start | None = None
+    solver: Solver | None = None
+    simulate: Simulate | None = None
+    sweep: Sweep | None = None
+    map: Map | None = None
+    basins: Basins | None = None
+    orbit: Orbit | None = None
+    lyapunov: Lyapunov | None = None
+    continue_: Continue | None = None
+    attractors: Attractors | None = None
+
+    def __post_init__(self) -> None:
+        """Check what is given and fill in what is not."""
+        self._adopt(_native.resolve(_json(self), []))
+
+    @classmethod
+    def paper(cls) -> Study:
+        """Return the case of Dias & Del Prado, section 3."""
+        return _of(_native.paper())
+
+    @classmethod
+    def load(
+        cls, path: str | os.PathLike[str], changes: Mapping[str, object] | None = None
+    ) -> Study:
+        """Read a study file, with changes as in :meth:`set`."""
+        return _of(_native.load(Path(path), _overrides(changes)))
+
+    @classmethod
+    def parse(cls, text: str, changes: Mapping[str, object] | None = None) -> Study:
+        """Read the text of a study file (TOML), with changes as in :meth:`set`."""
+        return _of(_native.parse("text", text, _overrides(changes)))
+
+    def set(self, changes: Mapping[str, object]) -> Study:
+        """Return the study with other values.
+
+        Parameters
+        ----------
+        changes : mapping
+            Keys as in the study file with a dot between table and key: ``"plate.inertia"``,
+            ``"jumper.damping_ratio"`` for everyone, ``"jumper.0.mass"`` for one person.
+        """
+        return _of(_native.resolve(self._resolved[0], _overrides(changes)))
+
+    def replace(self, **tables: Any) -> Study:
+        """Return the study with whole tables in place of its own, such as ``sweep=Sweep(...)``."""
+        return dataclasses.replace(self, **tables)
+
+    def to_toml(self) -> str:
+        """Return the study as the text of a study file, every default written out."""
+        return self._resolved[1]
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the study file that the program reads."""
+        Path(path).write_text(self.to_toml(), encoding="utf-8")
+
+    @property
+    def hash(self) -> str:
+        """SHA-256 of the resolved study: what results carry to say what they are of."""
+        return self._resolved[2]
+
+    @property
+    def warnings(self) -> list[str]:
+        """What is legal but probably not meant."""
+        return _native.describe(self._resolved[0])[1]
+
+    def __str__(self) -> str:
+        """Return what the study describes, line by line."""
+        return _native.describe(self._resolved[0])[0]
+
+    def __repr__(self) -> str:
+        """Return the tables that are there."""
+        asked = [field.name for field in dataclasses.fields(self) if getattr(self, field.name)]
+        return f"<saltus.Study {self.hash[:12]}: {', '.join(asked)}>"
+
+    def __reduce__(self) -> tuple[Any, tuple[str]]:
+        """Pickle as the text of the study file, which gives the same bits."""
+        return Study.parse, (self.to_toml(),)
+
+    # set in __post_init__; JSON, TOML and hash of the resolved study
+    @property
+    def _resolved(self) -> tuple[str, str, str]:
+        resolved: tuple[str, str, str] = self.__dict__["resolved"]
+        return resolved
+
+    def _adopt(self, resolved: tuple[str, str, str]) -> None:
+        tree = json.loads(resolved[0])
+        for field in dataclasses.fields(self):
+            table = field.name.rstrip("_")
+            value = _built(table, tree.get(table))
+            object.__setattr__(self, field.name, () if value is None and table == "jumper" else value)
+        self.__dict__["resolved"] = resolved
+
+
+StudyLike = Study | str | os.PathLike[str]
+"""A study, or the path of a study file."""
+
+
+def as_study(study: StudyLike) -> Study:
+    """Return the study itself, or the one in the file of that path."""
+    return study if isinstance(study, Study) else Study.load(study)
+
+
+def _of(resolved: tuple[str, str, str]) -> Study:
+    # checked already, and once is enough
+    study = object.__new__(Study)
+    study._adopt(resolved)
+    return study
+
+
+def _built(name: str, value: Any) -> Any:
+    """Tables as their classes, lists as tuples."""
+    if isinstance(value, dict):
+        table = TABLES[name]
+        return table(
+            **{
+                field.name: _built(f"{name}.{key}", value[key])
+                for field in dataclasses.fields(table)
+                if (key := field.name.rstrip("_")) in value
+            }
+        )
+    if isinstance(value, list):
+        return tuple(_built(name, item) for item in value)
+    return value
+
+
+def _json(study: Study) -> str:
+    return json.dumps(_plain("", study), allow_nan=False)
+
+
+def _plain(key: str, value: Any) -> Any:
+    """Tables as dicts without what is left out, array-likes as lists."""
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        return {
+            name: _plain(f"{key}.{name}" if key else name, given)
+            for field in dataclasses.fields(value)
+            if (given := getattr(value, field.name)) is not None
+            for name in (field.name.rstrip("_"),)
+        }
+    if isinstance(value, (str, bool, int)):
+        return value
+    if isinstance(value, float):
+        # JSON has no such numbers; as words they are refused with their key
+        return value if math.isfinite(value) else str(value)
+    if isinstance(value, (list, tuple)) and not _numeric(value):
+        return [_plain(f"{key}.{place}", item) for place, item in enumerate(value)]
+    array = np.asarray(value)
+    if array.dtype.kind not in "biufUS":
+        raise TypeError(f"{key} = {value!r}: a number, a word, a table or a list of these is needed")
+    return _plain(key, array.tolist())
+
+
+def _numeric(value: Sequence[Any]) -> bool:
+    """Whether an array takes the items whole; else they are looked at one by one."""
+    return bool(value) and all(hasattr(item, "__array__") and np.ndim(item) > 0 for item in value)
+
+
+def _overrides(changes: Mapping[str, object] | None) -> list[str]:
+    return [f"{key}={_toml(key, value)}" for key, value in (changes or {}).items()]
+
+
+def _toml(key: str, value: object) -> str:
+    plain = _plain(key, value)
+    # but for tables JSON is TOML; a word for a number that is not finite is none in quotes
+    if isinstance(value, (float, np.floating)) and isinstance(plain, str):
+        return plain
+    if isinstance(plain, dict):
+        return "{" + ", ".join(f"{name} = {_toml(name, item)}" for name, item in plain.items()) + "}"
+    return json.dumps(plain, ensure_ascii=False)

@@ -1,0 +1,112 @@
+"""Lyapunov exponents with errors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from saltus._arguments import whole
+from saltus._progress import Progress, watched
+from saltus.systems._integrate import Members, Options, Taylor, words
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from saltus.systems._system import System
+
+__all__ = ["Exponents", "lyapunov"]
+
+
+@dataclass(frozen=True, eq=False)
+class Exponents:
+    """Lyapunov exponents of all members.
+
+    Attributes
+    ----------
+    exponents : ndarray of float, shape (..., count)
+        Mean growth per unit of time (natural logarithm), the largest first but for their errors.
+    standard_errors : ndarray of float, shape (..., count)
+        Their standard errors, from batches; infinite for fewer than 20 periods.
+    dimension : ndarray of float, shape (...)
+        Kaplan-Yorke dimension; NaN where the record does not tell it.
+    dimension_error : ndarray of float, shape (...)
+        Its standard error.
+    status, reason : ndarray of str, shape (...)
+        How each trajectory ended, as a word and as a sentence; "completed" is well.
+    """
+
+    exponents: NDArray[np.float64]
+    standard_errors: NDArray[np.float64]
+    dimension: NDArray[np.float64]
+    dimension_error: NDArray[np.float64]
+    status: NDArray[np.str_]
+    reason: NDArray[np.str_]
+
+
+def lyapunov(
+    system: System,
+    starts: ArrayLike,
+    periods: int,
+    *,
+    count: int | None = None,
+    transient: int = 100,
+    parameters: Mapping[str, ArrayLike] | None = None,
+    modes: ArrayLike | None = None,
+    method: Taylor = Taylor(),  # noqa: B008 (it is frozen)
+    max_switches: int = 100,
+    threads: int = 0,
+    progress: Progress = None,
+) -> Exponents:
+    """Lyapunov exponents of many members, by tangent columns kept orthonormal.
+
+    Benettin, Galgani, Giorgilli & Strelcyn, Meccanica 15 (1980) 9. A switch multiplies the columns by
+    its saltation matrix.
+
+    Parameters
+    ----------
+    system : System
+        The system.
+    starts : array_like of float, shape (..., states)
+        The states at the start, at phase 0 of the forcing.
+    periods : int
+        Periods of the record.
+    count : int, optional
+        How many exponents; by default all.
+    transient : int, optional
+        Periods before the record begins, in which the columns find their directions.
+    parameters, modes, max_switches, threads, progress
+        As for `integrate`.
+    method : Taylor, optional
+        How to integrate.
+
+    Returns
+    -------
+    Exponents
+    """
+    members = Members.of(system, starts, modes, parameters)
+    n = len(system.states)
+    some = n if count is None else whole("count", count, 1, n)
+    with watched(progress) as show:
+        raw = system.program.lyapunov(
+            parameters=members.parameters,
+            starts=members.starts,
+            modes=members.modes,
+            periods=whole("periods", periods, 1, 2**53),
+            transient=whole("transient", transient, 0, 2**53),
+            count=some,
+            settings=Options(method, max_switches, threads),
+            progress=show,
+        )
+    shape = members.shape
+    return Exponents(
+        exponents=raw.exponents.reshape(*shape, some),
+        standard_errors=raw.standard_errors.reshape(*shape, some),
+        dimension=raw.dimension.reshape(shape),
+        dimension_error=raw.dimension_error.reshape(shape),
+        status=words([word for word, _ in raw.status], shape),
+        reason=words([sentence for _, sentence in raw.status], shape),
+    )

@@ -1,0 +1,148 @@
+"""Periodic orbits and their Floquet multipliers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from saltus._arguments import reals, whole
+from saltus.systems._integrate import Members, Options, Taylor
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from saltus.systems._system import System
+
+__all__ = ["Orbit", "find_orbit"]
+
+
+@dataclass(frozen=True, eq=False)
+class Orbit:
+    """A periodic orbit.
+
+    Attributes
+    ----------
+    period : int
+        Periods of the forcing.
+    states : ndarray of float, shape (period, states)
+        The states at phase 0 of the forcing.
+    modes : ndarray of int, shape (period, units)
+        The modes there.
+    multipliers : ndarray of complex, shape (states,)
+        Floquet multipliers, by falling modulus.
+    monodromy : ndarray of float, shape (states, states)
+        Derivative of the stroboscopic map once around, at the first place.
+    switch_time : ndarray of float, shape (switches,)
+        When it switches, in periods of the forcing since the first place.
+    switch_unit, switch_source, switch_target : ndarray of int, shape (switches,)
+        Which unit, the mode left, and the mode entered.
+    residual : float
+        Largest component of P(x_i) - x_(i+1).
+    iterations : int
+        Newton steps taken.
+    """
+
+    period: int
+    states: NDArray[np.float64]
+    modes: NDArray[np.uint8]
+    multipliers: NDArray[np.complex128]
+    monodromy: NDArray[np.float64]
+    switch_time: NDArray[np.float64]
+    switch_unit: NDArray[np.int64]
+    switch_source: NDArray[np.int64]
+    switch_target: NDArray[np.int64]
+    residual: float
+    iterations: int
+
+    @property
+    def stable(self) -> bool:
+        """Whether all multipliers lie inside the unit circle."""
+        return bool((np.abs(self.multipliers) < 1.0).all())
+
+
+def find_orbit(
+    system: System,
+    start: ArrayLike,
+    *,
+    period: int | None = None,
+    parameters: Mapping[str, ArrayLike] | None = None,
+    modes: ArrayLike | None = None,
+    tolerance: float = 1e-11,
+    iterations: int = 18,
+    method: Taylor = Taylor(tolerance=1e-14, order=22),  # noqa: B008 (it is frozen)
+    max_switches: int = 100,
+    threads: int = 0,
+) -> Orbit:
+    """Find the periodic orbit near a start, by Newton's method with multiple shooting.
+
+    Parameters
+    ----------
+    system : System
+        The system.
+    start : array_like of float, shape (states,) or (period, states)
+        States near those of the orbit at phase 0 of the forcing, at one or at all of its periods.
+    period : int, optional
+        How many periods of the forcing; by default as many as `start` has. The orbit found has the
+        shortest: a start of four places that leads to an orbit of two gives two.
+    parameters : mapping of str to array_like, optional
+        Values of all parameters.
+    modes : array_like of int, shape (units,) or (period, units), optional
+        The modes at the start.
+    tolerance : float, optional
+        Residual to reach, relative to the largest state or 1.
+    iterations : int, optional
+        Newton steps at most.
+    method : Taylor, optional
+        How to integrate.
+    max_switches, threads : int, optional
+        As for `integrate`.
+
+    Returns
+    -------
+    Orbit
+
+    Raises
+    ------
+    ComputationError
+        If no orbit was found; the message says how far the method came.
+    """
+    members = Members.of(system, np.atleast_2d(reals("start", start)), modes, parameters)
+    if len(members.shape) != 1 or members.shape[0] == 0:
+        raise ValueError(
+            f"start has the shape {np.shape(start)}: (states,) or (period, states) is needed"
+        )
+    if (members.parameters != members.parameters[0]).any():
+        raise ValueError("an orbit has one value of each parameter")
+    given = members.shape[0]
+    around = given if period is None else whole("period", period, 1)
+    if given not in (1, around):
+        raise ValueError(f"start has {given} places and period is {around}: 1 or {around} would do")
+    raw = system.program.find_orbit(
+        parameters=members.parameters,
+        starts=members.starts,
+        modes=members.modes,
+        period=around,
+        tolerance=float(reals("tolerance", tolerance)),
+        iterations=whole("iterations", iterations, 1),
+        settings=Options(method, max_switches, threads),
+    )
+    n = len(system.states)
+    when, *what = zip(*raw.switches, strict=True) if raw.switches else ((), (), (), ())
+    unit, source, target = (np.array(one, dtype=np.int64) for one in what)
+    return Orbit(
+        period=raw.period,
+        states=raw.places.reshape(raw.period, n),
+        modes=raw.modes.reshape(raw.period, len(system.modes)),
+        multipliers=np.array([complex(re, im) for re, im in raw.multipliers], dtype=np.complex128),
+        monodromy=raw.monodromy.reshape(n, n),
+        switch_time=np.array(when, dtype=np.float64),
+        switch_unit=unit,
+        switch_source=source,
+        switch_target=target,
+        residual=raw.residual,
+        iterations=raw.iterations,
+    )

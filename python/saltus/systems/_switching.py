@@ -1,0 +1,191 @@
+"""What drives a system and what switches in it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+import numpy as np
+
+from saltus._errors import DefinitionError
+from saltus.systems._expression import Expression, ExpressionLike, expression
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["Forcing", "Pairs", "Transition", "Unit", "pairs"]
+
+#: One or many things that belong to one or many expressions: a mapping, or pairs of (arrays of) them.
+Pairs: TypeAlias = Mapping[Expression, Any] | Iterable[tuple[Any, Any]]
+
+
+class Forcing:
+    """A harmonic forcing.
+
+    Parameters
+    ----------
+    frequency : float or Expression
+        Angular frequency Ω (rad per unit of time); positive.
+
+    Attributes
+    ----------
+    cos, sin : Expression
+        cos Ωt and sin Ωt. Other phases and harmonics are sums and products of them.
+    """
+
+    def __init__(self, frequency: ExpressionLike) -> None:
+        self.frequency = expression(frequency)
+        if self.frequency.changes:
+            raise DefinitionError("the frequency of a forcing must not change with time")
+        self.cos = Expression("forcing cos", tag=self, changes=True)
+        self.sin = Expression("forcing sin", tag=self, changes=True)
+
+    def __repr__(self) -> str:
+        """Show the frequency."""
+        return f"Forcing({self.frequency!r})"
+
+
+@dataclass(frozen=True, eq=False)
+class Transition:
+    """What ends a mode of a unit, and what happens then; made by `Unit.transition`."""
+
+    unit: Unit
+    source: str
+    target: str
+    guard: Expression
+    direction: Literal["falling", "rising"]
+    resets: tuple[tuple[Expression, Expression], ...]
+    vanishing: tuple[tuple[Expression, int], ...]
+
+
+class Unit:
+    """Something that switches on its own, such as one contact: an automaton with modes.
+
+    Parameters
+    ----------
+    *modes : str
+        Names of its modes. The first is the one to start in unless another is given.
+
+    Examples
+    --------
+    A wall of stiffness 50 at x = 1:
+
+    >>> from saltus.systems import states
+    >>> x, v = states("x", "v")
+    >>> wall = Unit("free", "contact")
+    >>> force = wall.choose(free=0.0, contact=-50.0 * (x - 1.0))
+    >>> hit = wall.transition("free", "contact", rising=x - 1.0)
+    >>> leave = wall.transition("contact", "free", falling=x - 1.0)
+    """
+
+    def __init__(self, *modes: str) -> None:
+        if not modes or len(modes) > 256 or len(set(modes)) < len(modes):
+            raise DefinitionError(f"{modes} are no modes: 1 to 256 different names are needed")
+        self.modes = tuple(str(mode) for mode in modes)
+
+    def __repr__(self) -> str:
+        """Show the modes."""
+        return f"Unit({', '.join(map(repr, self.modes))})"
+
+    def choose(self, by_mode: Mapping[str, Any] | None = None, /, **more: Any) -> Any:
+        """Give the formula that the present mode selects.
+
+        Parameters
+        ----------
+        by_mode : mapping of str to array_like of Expression or float, optional
+            A formula, or an array of them, for each mode.
+        **more
+            The same, for modes whose names are identifiers.
+
+        Returns
+        -------
+        Expression, or ndarray of Expression
+        """
+        all_modes = {**(by_mode or {}), **more}
+        if set(all_modes) != set(self.modes):
+            raise DefinitionError(
+                f"formulas for {sorted(all_modes)}: one is needed for each of {list(self.modes)}"
+            )
+        parts = np.broadcast_arrays(*(_objects(all_modes[mode]) for mode in self.modes))
+        out = np.empty(parts[0].shape, dtype=object)
+        for index in np.ndindex(out.shape):
+            of = tuple(expression(part[index]) for part in parts)
+            changes = any(one.changes for one in of)
+            out[index] = Expression("choice", of, tag=self, changes=changes)
+        return out[()]
+
+    def transition(
+        self,
+        source: str,
+        target: str,
+        *,
+        falling: ExpressionLike | None = None,
+        rising: ExpressionLike | None = None,
+        reset: Pairs = (),
+        vanishing: Pairs = (),
+    ) -> Transition:
+        """Leave a mode when a guard comes to zero.
+
+        Parameters
+        ----------
+        source, target : str
+            The mode that ends and the one that follows, which may be the same.
+        falling, rising : Expression
+            The guard, one of the two: positive while the mode lasts, and falling to zero at its end;
+            or negative, and rising.
+        reset : mapping or pairs of (states, values), optional
+            States that jump, and where to, from the values of all states just before. Both may be
+            arrays.
+        vanishing : mapping or pairs of (guards, multiplicities), optional
+            Guards that are zero after the switch by construction, and how many of their derivatives,
+            themselves included. The guard that fired is one of them without being named.
+
+        Returns
+        -------
+        Transition
+            To be handed to `System`.
+        """
+        for mode in (source, target):
+            if mode not in self.modes:
+                raise DefinitionError(f"{mode!r} is not one of the modes {list(self.modes)}")
+        if (falling is None) == (rising is None):
+            raise DefinitionError("a transition has one guard: give either falling or rising")
+        guard = expression(falling if falling is not None else rising)  # type: ignore[arg-type]
+        return Transition(
+            unit=self,
+            source=source,
+            target=target,
+            guard=guard,
+            direction="falling" if falling is not None else "rising",
+            resets=tuple((state, expression(value)) for state, value in pairs("reset", reset)),
+            vanishing=tuple((one, int(count)) for one, count in pairs("vanishing", vanishing)),
+        )
+
+
+def pairs(name: str, given: Pairs) -> list[tuple[Expression, Any]]:
+    """Expressions and what belongs to them, one by one.
+
+    Raises
+    ------
+    DefinitionError
+        If shapes do not fit or something is no expression.
+    """
+    out: list[tuple[Expression, Any]] = []
+    for left, right in given.items() if isinstance(given, Mapping) else given:
+        first, second = _objects(left), _objects(right)
+        try:
+            second = np.broadcast_to(second, first.shape)
+        except ValueError:
+            raise DefinitionError(
+                f"{name}: an array of shape {second.shape} for one of shape {first.shape}"
+            ) from None
+        for index in np.ndindex(first.shape):
+            if not isinstance(first[index], Expression):
+                raise DefinitionError(f"{name}: {first[index]!r} is not an expression")
+            out.append((first[index], second[index]))
+    return out
+
+
+def _objects(value: Any) -> NDArray[np.object_]:
+    return np.asarray(value, dtype=object)
