@@ -552,10 +552,10 @@ class Continue:
 
 @dataclass(frozen=True, kw_only=True)
 class Attractors:
-    """What `saltus attractors` runs: every motion that many first states lead to, at
-    one value of a parameter or at many.
+    """What `saltus attractors` runs: every motion that many first states lead to.
 
-    For many give parameter with from, to and count, or with values.
+    At the study's own parameters or at each value of one: give parameter with
+    from, to and count, or with values, or none of them.
     """
 
     z: tuple[float, float] | Numbers | None = None

@@ -2,7 +2,7 @@
 //!
 //! A number that is not finite has no spelling in JSON. It is given as text, as TOML spells it ("nan", "inf",
 //! "-inf"), and refused as it is there. A null is refused too, wherever it stands: some writers put it in
-//! place of such a number, and a key that were left out for it would silently have its default.
+//! place of such a number, and a key that is taken for absent silently has its default.
 
 use crate::error::{StudyError, StudyErrorKind};
 use crate::key::Key;

@@ -47,7 +47,7 @@ pub struct ContinueTable {
     #[serde(default = "default_cloud")]
     #[garde(range(min = 0, max = 100_000))]
     pub cloud: u32,
-    /// A second parameter: the special points of the branches become curves over both.
+    /// A second parameter: special points of the branches become curves over both.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "SecondTable")]
     #[garde(dive)]

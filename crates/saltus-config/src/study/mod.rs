@@ -39,7 +39,7 @@ pub struct Study {
     #[garde(range(min = 1, max = Study::FORMAT))]
     #[schemars(range(min = 1, max = 1))]
     pub format: u32,
-    /// The plate.
+    /// A simply supported rectangular plate, its edges held in their plane.
     #[garde(dive)]
     pub plate: PlateTable,
     /// The people: none, one or many, each written as its own `[[jumper]]`.
@@ -49,7 +49,7 @@ pub struct Study {
     /// When feet leave the floor and come back.
     #[garde(dive)]
     pub contact: ContactTable,
-    /// The motion of the plate's edges, A_b cos(Ω t).
+    /// The motion of the plate's edges, A_b cos(Ω t). Give frequency_ratio or frequency, not both.
     #[garde(dive)]
     pub base: BaseTable,
     /// Gravity.
@@ -64,39 +64,40 @@ pub struct Study {
     #[serde(default)]
     #[garde(dive)]
     pub start: StartTable,
-    /// What `saltus simulate` runs.
+    /// What `saltus simulate` runs: the motion from the first state on.
     #[serde(default)]
     #[garde(dive)]
     pub simulate: SimulateTable,
-    /// What `saltus sweep` runs.
+    /// What `saltus sweep` runs: the long-term motion at each value of a parameter.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "SweepTable")]
     #[garde(dive)]
     pub sweep: Option<SweepTable>,
-    /// What `saltus map` runs.
+    /// What `saltus map` runs: the long-term motion over a plane of two parameters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "MapTable")]
     #[garde(dive)]
     pub map: Option<MapTable>,
-    /// What `saltus basins` runs.
+    /// What `saltus basins` runs: where the first states of a plane of them lead.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "BasinsTable")]
     #[garde(dive)]
     pub basins: Option<BasinsTable>,
-    /// What `saltus orbit` seeks.
+    /// What `saltus orbit` seeks: a periodic orbit, stable or not.
     #[serde(default)]
     #[garde(dive)]
     pub orbit: OrbitTable,
-    /// What `saltus lyapunov` runs.
+    /// What `saltus lyapunov` runs: how fast neighbours of the long-term motion part.
     #[serde(default)]
     #[garde(dive)]
     pub lyapunov: LyapunovTable,
-    /// What `saltus continue` runs.
+    /// What `saltus continue` runs: branches of periodic orbits over a parameter.
     #[serde(rename = "continue", default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "ContinueTable")]
     #[garde(dive)]
     pub continuation: Option<ContinueTable>,
-    /// What `saltus attractors` runs.
+    /// What `saltus attractors` runs: every motion that many first states lead to. At the study's own
+    /// parameters or at each value of one: give parameter with from, to and count, or with values, or none of them.
     #[serde(default)]
     #[garde(dive)]
     pub attractors: AttractorsTable,
