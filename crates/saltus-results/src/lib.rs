@@ -5,6 +5,7 @@
 //! - [`figure`]: a small declarative figure model, rendered to SVG text and PNG bytes;
 //! - [`folder`]: result folders and single files that appear whole or not at all;
 //! - [`manifest`]: what a result folder says of itself, and whether its files are still those;
+//! - [`compare`]: two result folders side by side, with the largest differences;
 //! - [`dataset`]: arrays over named axes as one NetCDF-4 file, for xarray and its like;
 //! - [`pieces`]: finished pieces of long work, kept so that it can be taken up again;
 //! - [`table`]: CSV that reads back to the same bits, and Markdown tables;
@@ -12,6 +13,7 @@
 //! - [`page`]: a self-contained HTML page that shows figures, tables and facts without a network.
 
 pub mod columns;
+pub mod compare;
 pub mod dataset;
 pub mod error;
 pub mod figure;
@@ -22,6 +24,7 @@ pub mod pieces;
 pub mod table;
 
 pub use columns::{Column, Columns};
+pub use compare::{Comparison, compare};
 pub use dataset::{Attribute, Dataset, Values, Variable};
 pub use error::ResultsError;
 pub use figure::{
