@@ -10,6 +10,7 @@
 //! - [`pieces`]: finished pieces of long work, kept so that it can be taken up again;
 //! - [`table`]: CSV that reads back to the same bits, and Markdown tables;
 //! - [`columns`]: the same rows as typed columns in memory;
+//! - `parquet`: the same as Parquet files, behind the feature of that name;
 //! - [`page`]: a self-contained HTML page that shows figures, tables and facts without a network.
 
 pub mod columns;
@@ -20,6 +21,8 @@ pub mod figure;
 pub mod folder;
 pub mod manifest;
 pub mod page;
+#[cfg(feature = "parquet")]
+pub mod parquet;
 pub mod pieces;
 pub mod table;
 
@@ -34,5 +37,7 @@ pub use figure::{
 pub use folder::{ResultFolder, write_file_atomically};
 pub use manifest::{FileRecord, Manifest, Problem};
 pub use page::{Fact, FigureBlock, Image, Page, Verdict};
+#[cfg(feature = "parquet")]
+pub use parquet::ParquetTable;
 pub use pieces::{Damage, PieceStore, Survey};
 pub use table::{CsvTable, MarkdownTable, Value};
