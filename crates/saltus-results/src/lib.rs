@@ -5,7 +5,7 @@
 //! - [`figure`]: a small declarative figure model, rendered to SVG text and PNG bytes;
 //! - [`folder`]: result folders and single files that appear whole or not at all;
 //! - [`manifest`]: what a result folder says of itself, and whether its files are still those;
-//! - [`compare`]: two result folders side by side, with the largest differences;
+//! - [`mod@compare`]: two result folders side by side, with the largest differences;
 //! - [`dataset`]: arrays over named axes as one NetCDF-4 file, for xarray and its like;
 //! - [`pieces`]: finished pieces of long work, kept so that it can be taken up again;
 //! - [`table`]: CSV that reads back to the same bits, and Markdown tables;
