@@ -281,13 +281,13 @@ fn what_cannot_be_read_is_told_and_nothing_breaks() {
     let two = Two::new(&[("x.nc", &bytes)], &[("x.nc", &bytes)]);
     let damaged = two.dir("b").join("x.nc");
     let write = |bytes: &[u8]| std::fs::write(&damaged, bytes).unwrap();
-    for length in (0..bytes.len()).step_by(7) {
+    for length in (0..bytes.len()).step_by(41) {
         write(&bytes[..length]);
         two.compare();
     }
-    for place in 0..bytes.len() {
+    for place in (0..bytes.len()).step_by(4) {
         let mut altered = bytes.clone();
-        altered[place] ^= [1, 0x80, 0xff][place % 3];
+        altered[place] ^= [1, 0x80, 0xff][place / 4 % 3];
         write(&altered);
         assert_ne!(two.compare().files[0].outcome, Outcome::Identical);
     }
