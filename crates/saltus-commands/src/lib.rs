@@ -8,6 +8,7 @@ mod attractors;
 mod basins;
 mod context;
 mod continuation;
+mod dataset;
 mod describe;
 mod failure;
 mod frequencies;
