@@ -57,8 +57,16 @@ pub(super) fn dataset(run: &Run, report: &Report, convergence: &[Running]) -> Da
     ))
     .variable(dataset::base_frequency(&run.model));
     for (name, value, long_name) in [
-        ("sum", report.sum.per_period, "Sum of the exponents"),
-        ("sum_error", report.sum.standard_error, "Its standard error"),
+        (
+            "exponent_sum",
+            report.sum.per_period,
+            "Sum of the exponents",
+        ),
+        (
+            "exponent_sum_error",
+            report.sum.standard_error,
+            "Its standard error",
+        ),
         (
             "divergence",
             report.divergence.per_period,
