@@ -6,6 +6,19 @@ from typing import TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = [
+    "Exponents",
+    "Orbit",
+    "Program",
+    "Trajectories",
+    "__version__",
+    "check_study",
+    "count",
+    "paper_template",
+    "schema",
+    "shut_down",
+]
+
 __version__: str
 
 _Progress: TypeAlias = Callable[[str, int, int | None], object] | None

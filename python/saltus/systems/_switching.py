@@ -187,5 +187,5 @@ def pairs(name: str, given: Pairs) -> list[tuple[Expression, Any]]:
     return out
 
 
-def _objects(value: Any) -> NDArray[np.object_]:
+def _objects(value: Any) -> NDArray[Any]:
     return np.asarray(value, dtype=object)

@@ -206,7 +206,7 @@ class _Listing:
         self._places: dict[Expression, int] = {}
 
     def place(self, root: Expression) -> int:
-        """Where an expression is on the list; it is put there if need be, after what it is made of."""
+        """The place of an expression on the list, where it is put after what it is made of."""
         waiting = [root]
         while waiting:
             part = waiting[-1]

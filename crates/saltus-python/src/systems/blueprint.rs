@@ -72,9 +72,7 @@ pub(crate) struct Blueprint {
 /// Why there is no system at some parameters.
 #[derive(Clone, Debug, thiserror::Error)]
 pub(crate) enum Unbuildable {
-    #[error(
-        "{what} is {value} at the parameters {parameters:?}: a {right} number is needed"
-    )]
+    #[error("{what} is {value} at the parameters {parameters:?}: a {right} number is needed")]
     Number {
         what: &'static str,
         value: f64,

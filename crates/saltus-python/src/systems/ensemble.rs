@@ -82,7 +82,9 @@ pub(crate) fn run(
     let work = |stop: &AtomicBool, done: &AtomicU64| -> PyResult<Vec<Ended>> {
         let first = match members.count {
             0 => return Ok(Vec::new()),
-            _ => blueprint.system(members.parameters.row(0)).map_err(of_definition)?,
+            _ => blueprint
+                .system(members.parameters.row(0))
+                .map_err(of_definition)?,
         };
         let mut kept = samples.chunks_mut((rows * states).max(1));
         let mut kept_modes = modes.chunks_mut((rows * units).max(1));
@@ -222,7 +224,9 @@ impl Member<'_> {
 
 impl Task for Member<'_> {
     fn begin(&mut self) -> Option<Leg> {
-        let system = self.blueprint.system(self.members.parameters.row(self.index));
+        let system = self
+            .blueprint
+            .system(self.members.parameters.row(self.index));
         let system = system.ok()?.sharing(self.first);
         self.period = system.period();
         let modes = self.members.modes.row(self.index);

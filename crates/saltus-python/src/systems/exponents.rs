@@ -39,7 +39,9 @@ pub(crate) fn run(
     let options = settings.options();
     let ended = run_beside(py, progress, |stop, done| {
         let wide = |index: usize| {
-            let system = blueprint.system(members.parameters.row(index)).map_err(of_definition)?;
+            let system = blueprint
+                .system(members.parameters.row(index))
+                .map_err(of_definition)?;
             system.with_tangents(count).map_err(of_definition)
         };
         let mut tasks: Vec<Climb<'_>> = Vec::with_capacity(members.count);
@@ -102,7 +104,9 @@ impl Task for Climb<'_> {
         let (modes, x) = self.start.take()?;
         let mut start = self.system.point(modes, x);
         let columns = self.spectrum.start_columns();
-        self.system.columns_mut(&mut start.x).copy_from_slice(&columns);
+        self.system
+            .columns_mut(&mut start.x)
+            .copy_from_slice(&columns);
         Some(Leg {
             system: self.system.clone(),
             start,

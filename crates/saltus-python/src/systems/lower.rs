@@ -221,7 +221,8 @@ impl Lowering {
             _ => {}
         }
         match (a, b) {
-            (Form::Switched { unit, by_mode }, other) | (other, Form::Switched { unit, by_mode }) => {
+            (Form::Switched { unit, by_mode }, other)
+            | (other, Form::Switched { unit, by_mode }) => {
                 let (constant, mut terms) = self.sum(other);
                 if let Some(c) = constant {
                     terms.push((c, self.one()));
@@ -321,7 +322,10 @@ impl Lowering {
         match form {
             Form::Sum { constant, terms } => Form::Sum {
                 constant: constant.map(&mut scale),
-                terms: terms.into_iter().map(|(c, value)| (scale(c), value)).collect(),
+                terms: terms
+                    .into_iter()
+                    .map(|(c, value)| (scale(c), value))
+                    .collect(),
             },
             Form::Switched { unit, by_mode } => Form::Switched {
                 unit,

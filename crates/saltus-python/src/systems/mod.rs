@@ -11,7 +11,7 @@ mod lower;
 mod orbit;
 mod program;
 
-pub(crate) use exponents::Exponents;
 pub(crate) use ensemble::Trajectories;
+pub(crate) use exponents::Exponents;
 pub(crate) use orbit::Orbit;
 pub(crate) use program::Program;

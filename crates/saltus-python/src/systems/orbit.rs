@@ -106,7 +106,13 @@ fn led_on(
             start,
             derivative: false,
         };
-        places.extend(map.images(&[shot]).into_iter().next().transpose()?.map(|image| image.place));
+        places.extend(
+            map.images(&[shot])
+                .into_iter()
+                .next()
+                .transpose()?
+                .map(|image| image.place),
+        );
     }
     Ok(places)
 }

@@ -108,7 +108,11 @@ impl Program {
         let definition = Definition {
             ops: operations,
             rates,
-            clock: if forced { Clock::Forcing(clock) } else { Clock::Interval(clock) },
+            clock: if forced {
+                Clock::Forcing(clock)
+            } else {
+                Clock::Interval(clock)
+            },
             units: self::units(units),
         };
         Ok(Self {
@@ -127,7 +131,10 @@ impl Program {
     fn periods(&self, parameters: PyReadonlyArray2<'_, f64>) -> PyResult<Vec<f64>> {
         let parameters = parameters.as_array();
         let row = |row: numpy::ndarray::ArrayView1<'_, f64>| {
-            let system = self.blueprint.system(&row.to_vec()).map_err(of_definition)?;
+            let system = self
+                .blueprint
+                .system(&row.to_vec())
+                .map_err(of_definition)?;
             Ok(system.period())
         };
         parameters.rows().into_iter().map(row).collect()
@@ -209,6 +216,14 @@ impl Program {
             total: Some((periods + transient).saturating_mul(members.count as u64)),
         };
         let length = (transient, periods);
-        exponents::run(py, &self.blueprint, &members, length, count, &settings, &progress)
+        exponents::run(
+            py,
+            &self.blueprint,
+            &members,
+            length,
+            count,
+            &settings,
+            &progress,
+        )
     }
 }
