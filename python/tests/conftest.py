@@ -10,14 +10,12 @@ from numpy.typing import NDArray
 
 from saltus.systems import Forcing, System, Unit, parameters, states
 
-Samples = dict[str, NDArray[np.float64]]
-
 
 @pytest.fixture(scope="session")
-def rust_samples() -> Samples:
+def rust_samples() -> dict[str, NDArray[np.float64]]:
     """Samples of systems written with the engine's builder, 60 periods each."""
     text = (Path(__file__).parent / "data" / "samples.txt").read_text()
-    out: Samples = {}
+    out = {}
     for line in text.splitlines():
         name, *bits = line.split()
         out[name] = np.array([int(one, 16) for one in bits], dtype=np.uint64).view(np.float64)

@@ -7,7 +7,6 @@ import platform
 import numpy as np
 import pytest
 
-from conftest import Samples
 from saltus.systems import (
     Forcing,
     System,
@@ -17,6 +16,8 @@ from saltus.systems import (
     state_array,
     states,
 )
+
+Samples = dict[str, np.ndarray]
 
 pytestmark = pytest.mark.skipif(
     platform.machine() not in ("x86_64", "AMD64"), reason="the bits were kept on x86-64"

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from saltus._errors import DefinitionError
 from saltus.systems._expression import Expression, ExpressionLike, expression
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 __all__ = ["Forcing", "Pairs", "Transition", "Unit", "pairs"]
 
@@ -107,7 +104,7 @@ class Unit:
             raise DefinitionError(
                 f"formulas for {sorted(all_modes)}: one is needed for each of {list(self.modes)}"
             )
-        parts = np.broadcast_arrays(*(_objects(all_modes[mode]) for mode in self.modes))
+        parts: Any = np.broadcast_arrays(*(_objects(all_modes[mode]) for mode in self.modes))
         out = np.empty(parts[0].shape, dtype=object)
         for index in np.ndindex(out.shape):
             of = tuple(expression(part[index]) for part in parts)
@@ -187,5 +184,5 @@ def pairs(name: str, given: Pairs) -> list[tuple[Expression, Any]]:
     return out
 
 
-def _objects(value: Any) -> NDArray[Any]:
+def _objects(value: Any) -> Any:
     return np.asarray(value, dtype=object)
