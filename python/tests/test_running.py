@@ -146,12 +146,18 @@ def test_a_daemon_thread_that_computes_does_not_hold_up_the_end() -> None:
     found = run_program("""
         import threading
         from saltus import _native
-        begun = threading.Event()
-        def work():
-            _native.count(2**63, progress=lambda *told: begun.set())
-        for _ in range(3):
+        from saltus.systems import System, integrate, states
+        counts, runs = threading.Event(), threading.Event()
+        def count():
+            _native.count(2**63, progress=lambda *told: counts.set())
+        def run():
+            x, = states("x")
+            system = System([x], [-x], interval=1.0)
+            integrate(system, [1.0], 0, transient=2**50, progress=lambda *told: runs.set())
+        for work in (count, count, run):
             threading.Thread(target=work, daemon=True).start()
-        begun.wait()
+        counts.wait()
+        runs.wait()
         print("ends")
     """)
     assert (found.stdout, found.stderr, found.returncode) == ("ends\n", "", 0)

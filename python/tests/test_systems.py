@@ -318,6 +318,20 @@ class TestSamples:
         entered = run.switches.target == 1
         assert (run.switches.state[entered, 1] > 0).all()
         assert ((run.samples[:, 0] > 0.5) == (run.modes[:, 0] == 1)).all()
+        # The same with a guard of its own for leaving, which vanishes where the other one does.
+        force = 7.0 * gap
+        again = System(
+            [x, v],
+            [v, forcing.cos - 0.1 * v - x + push],
+            forcing=forcing,
+            transitions=[
+                wall.transition("free", "contact", falling=gap, vanishing={force: 1}),
+                wall.transition("contact", "free", rising=force, vanishing={gap: 1}),
+            ],
+        )
+        other = integrate(again, [0.0, 0.0], 20)
+        assert other.switches.time == pytest.approx(run.switches.time, abs=CLOSE)
+        assert (other.switches.target == run.switches.target).all()
 
 
 class TestQuestions:

@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::{PyRuntimeError, PySystemExit};
 use pyo3::prelude::*;
 
 use crate::error::InternalError;
@@ -44,7 +44,7 @@ impl Progress<'_> {
 ///
 /// # Errors
 /// What a signal handler or the progress function raises, such as KeyboardInterrupt, after the work has
-/// stopped; `InternalError` if the work panics.
+/// stopped; `InternalError` if the work panics; SystemExit if the program ends meanwhile.
 pub(crate) fn run<T: Send>(
     py: Python<'_>,
     progress: &Progress<'_>,
@@ -68,6 +68,10 @@ pub(crate) fn run<T: Send>(
     });
     let answer = answer.map_err(|panic| broken(&*panic))?;
     raised.map_or(Ok(()), Err)?;
+    if stop.load(Ordering::Relaxed) {
+        // The program ends: the thread that called may end without a word.
+        return Err(PySystemExit::new_err(()));
+    }
     progress.report(py, done.into_inner())?;
     Ok(answer)
 }

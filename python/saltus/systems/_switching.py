@@ -8,6 +8,7 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
+from saltus._arguments import whole
 from saltus._errors import DefinitionError
 from saltus.systems._expression import Expression, ExpressionLike, expression
 
@@ -156,7 +157,10 @@ class Unit:
             guard=guard,
             direction="falling" if falling is not None else "rising",
             resets=tuple((state, expression(value)) for state, value in pairs("reset", reset)),
-            vanishing=tuple((one, int(count)) for one, count in pairs("vanishing", vanishing)),
+            vanishing=tuple(
+                (one, whole("a multiplicity", count, 1, 255))
+                for one, count in pairs("vanishing", vanishing)
+            ),
         )
 
 
