@@ -45,6 +45,22 @@ pub enum ResultsError {
         /// The refused name.
         name: String,
     },
+    /// What should be a result folder is none.
+    #[error("`{}` is no result of saltus: {problem}", path.display())]
+    NotAResult {
+        /// The path in question.
+        path: PathBuf,
+        /// Why not.
+        problem: String,
+    },
+    /// The manifest of a result folder is not one that this version reads.
+    #[error("the manifest `{}` cannot be used: {problem}", path.display())]
+    Manifest {
+        /// The manifest.
+        path: PathBuf,
+        /// What is wrong with it and what would be right.
+        problem: String,
+    },
     /// A table could not be written to its destination.
     #[error("cannot write the table: {}", reason(source))]
     Table {
@@ -99,6 +115,14 @@ pub enum ResultsError {
     )]
     NoPieces {
         /// The folder that was left alone.
+        path: PathBuf,
+        /// The file that would have marked it as a folder of pieces.
+        manifest: &'static str,
+    },
+    /// A folder that should hold pieces holds none, or is not there.
+    #[error("there are no pieces in `{}`: there is no `{manifest}`", path.display())]
+    AbsentPieces {
+        /// The folder in question.
         path: PathBuf,
         /// The file that would have marked it as a folder of pieces.
         manifest: &'static str,

@@ -3,13 +3,14 @@
 //! Everything is written to a staging place on the same file system first; only when all of it is on
 //! disk does it move to its name. A run that fails, or is interrupted, leaves the target as it was.
 
+use crate::manifest::{Digesting, FileRecord, Manifest};
 use crate::{Dataset, ResultsError};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Component, Path, PathBuf};
 use tempfile::TempDir;
 
-/// Name of the file that marks a folder as written by this program.
+/// Name of the file that marks a folder as written by this program: its [`Manifest`].
 pub const MARKER: &str = "saltus-result.json";
 
 /// Name of the page that links the other files; it moves last.
@@ -25,7 +26,8 @@ pub struct ResultFolder {
     staging: TempDir,
     /// Parents that did not exist before, outermost first; removed again if nothing is committed.
     parents: Vec<PathBuf>,
-    files: Vec<PathBuf>,
+    about: serde_json::Value,
+    files: Vec<FileRecord>,
 }
 
 impl ResultFolder {
@@ -53,12 +55,19 @@ impl ResultFolder {
             target: dir.to_path_buf(),
             staging,
             parents,
+            about: serde_json::json!({}),
             files: Vec::new(),
         };
         // The temporary folder is private to its owner; what is inside follows the user's own rules.
         fs::create_dir(folder.content())
             .map_err(ResultsError::io("create the folder", &folder.target))?;
         Ok(folder)
+    }
+
+    /// Says in the manifest what the result is: the request, the hash of its study, methods, accuracy. No
+    /// time and no name of a machine, or equal runs would not be equal folders.
+    pub fn about(&mut self, about: serde_json::Value) {
+        self.about = about;
     }
 
     /// Stages `bytes` as the file `name`, a relative path with `/` between folders.
@@ -84,9 +93,12 @@ impl ResultFolder {
         let folder = staged.parent().unwrap_or(&staged);
         fs::create_dir_all(folder).map_err(ResultsError::io("create the folder of", &shown))?;
         let file = File::create(&staged).map_err(ResultsError::io("create", &shown))?;
-        fill_file(file, fill).map_err(ResultsError::io("write", &shown))?;
-        if !self.files.contains(&relative) {
-            self.files.push(relative);
+        let mut file = Digesting::new(file);
+        fill_file(&mut file, fill).map_err(ResultsError::io("write", &shown))?;
+        let record = file.finish(name);
+        match self.files.iter_mut().find(|known| known.name == name) {
+            Some(known) => *known = record,
+            None => self.files.push(record),
         }
         Ok(())
     }
@@ -107,7 +119,8 @@ impl ResultFolder {
     /// # Errors
     /// As [`stage`](Self::stage), if the target changed in between or a move fails.
     pub fn commit(mut self) -> Result<PathBuf, ResultsError> {
-        self.write(MARKER, marker_text(&self.files))?;
+        let manifest = Manifest::new(std::mem::take(&mut self.about), self.files.clone());
+        self.write(MARKER, manifest.to_text())?;
         if check_target(&self.target)? {
             self.move_files()?;
         } else {
@@ -124,13 +137,12 @@ impl ResultFolder {
     }
 
     fn move_files(&self) -> Result<(), ResultsError> {
-        let mut files: Vec<&PathBuf> = self.files.iter().collect();
-        let order = |file: &Path| match file.to_str() {
-            Some(MARKER) => 0,
-            Some(INDEX) => 2,
+        let mut files: Vec<&str> = self.files.iter().map(|file| file.name.as_str()).collect();
+        files.sort_by_key(|&file| match file {
+            MARKER => 0,
+            INDEX => 2,
             _ => 1,
-        };
-        files.sort_by_key(|file| order(file));
+        });
         for file in files {
             let target = self.target.join(file);
             let folder = target.parent().unwrap_or(&self.target);
@@ -214,9 +226,9 @@ trait Synced {
     fn synced(&self) -> io::Result<()>;
 }
 
-impl Synced for File {
+impl Synced for &mut Digesting<File> {
     fn synced(&self) -> io::Result<()> {
-        self.sync_data()
+        self.get_ref().sync_data()
     }
 }
 
@@ -282,7 +294,7 @@ fn remove_empty(parents: &[PathBuf]) {
 }
 
 /// A relative path of ordinary names only.
-fn plain(name: &str) -> Result<PathBuf, ResultsError> {
+pub(crate) fn plain(name: &str) -> Result<PathBuf, ResultsError> {
     let path = Path::new(name);
     let ordinary = path
         .components()
@@ -293,14 +305,4 @@ fn plain(name: &str) -> Result<PathBuf, ResultsError> {
         });
     }
     Ok(path.to_path_buf())
-}
-
-fn marker_text(files: &[PathBuf]) -> String {
-    let files: Vec<_> = files.iter().map(|file| file.to_string_lossy()).collect();
-    let marker = serde_json::json!({
-        "format": "saltus-result",
-        "version": env!("CARGO_PKG_VERSION"),
-        "files": files,
-    });
-    format!("{marker:#}\n")
 }

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use hdf5_reader::Hdf5File;
-use saltus_results::{Dataset, ResultFolder, ResultsError, Values, Variable};
+use saltus_results::{Attribute, Dataset, ResultFolder, ResultsError, Values, Variable};
 use std::fmt::Write as _;
 use std::process::Command;
 
@@ -21,6 +21,10 @@ fn reals() -> Vec<f64> {
     ];
     values.extend((8..1200).map(|i| f64::from(i).sqrt()));
     values
+}
+
+fn texts<T: Into<String>>(texts: impl IntoIterator<Item = T>) -> Values {
+    Values::Text(texts.into_iter().map(Into::into).collect())
 }
 
 /// Every type, one to three dimensions, small arrays and compressed ones, short and long texts.
@@ -62,15 +66,41 @@ fn arrays() -> Vec<(&'static str, Vec<&'static str>, Values)> {
             (0..1200).map(|i| (i % 4) as u8).collect::<Vec<_>>().into(),
         ),
         ("seeds", vec!["seed"], (0..5_u8).collect::<Vec<_>>().into()),
+        ("long", vec!["zeta"], vec![i64::MIN, 1 << 60, -1].into()),
+        (
+            "settled",
+            vec!["layer", "zeta"],
+            vec![true, false, true, true, false, false].into(),
+        ),
+        (
+            "label",
+            vec!["zeta"],
+            texts(["period 1", "", "ζ_h, \"chaos\""]),
+        ),
+        ("place", vec!["place"], texts(["plate", "body"])),
+        (
+            "many",
+            vec!["ratio"],
+            texts((0..400).map(|i| "s".repeat(i % 9))),
+        ),
+        ("frequency", vec![], 2.297.into()),
+        ("title", vec![], texts(["one"])),
+        ("switch", vec!["switch"], Vec::<f64>::new().into()),
+        ("mode", vec!["switch"], Vec::<i32>::new().into()),
+        ("who", vec!["switch", "place"], texts::<String>([])),
+        ("force", vec!["switch", "ratio"], Vec::<f64>::new().into()),
+        ("none", vec!["nothing"], Vec::<bool>::new().into()),
     ]
 }
 
 fn dataset() -> Dataset {
-    let mut dataset = Dataset::new("Attractors").dimension("seed", 5);
+    let mut dataset = Dataset::new("Attractors")
+        .dimension("seed", 5)
+        .dimension("nothing", 0);
     for (name, dimensions, values) in arrays() {
         let variable = Variable::new(name, &dimensions, values).units("1");
         dataset = match name {
-            "zeta" | "ratio" | "layer" => {
+            "zeta" | "ratio" | "layer" | "place" | "switch" => {
                 dataset.coordinate(variable.long_name(format!("The {name}")))
             }
             "period" => dataset.variable(variable.flags([
@@ -97,6 +127,8 @@ fn little_endian(values: &Values) -> (&'static str, Vec<u8>) {
         Values::I32(v) => ("int32", v.iter().flat_map(|v| v.to_le_bytes()).collect()),
         Values::U16(v) => ("uint16", v.iter().flat_map(|v| v.to_le_bytes()).collect()),
         Values::U8(v) => ("uint8", v.clone()),
+        Values::I64(v) => ("int64", v.iter().flat_map(|v| v.to_le_bytes()).collect()),
+        Values::Bool(v) => ("bool", v.iter().map(|&v| v.into()).collect()),
         _ => panic!("a type this test does not know"),
     }
 }
@@ -106,15 +138,17 @@ fn values_come_back_to_the_bit() {
     let file = Hdf5File::from_bytes(&dataset().to_bytes().unwrap()).unwrap();
     for (name, dimensions, values) in arrays() {
         let array = file.dataset(name).unwrap();
-        assert_eq!(
-            array.read_raw_bytes().unwrap(),
-            little_endian(&values).1,
-            "{name}"
-        );
+        if let Values::Text(texts) = &values {
+            assert_eq!(&array.read_strings().unwrap(), texts, "{name}");
+        } else {
+            let bytes = little_endian(&values).1;
+            assert_eq!(array.read_raw_bytes().unwrap(), bytes, "{name}");
+        }
         let length = |dimension: &str| match dimension {
             "zeta" => 3,
             "ratio" => 400,
-            "layer" => 2,
+            "layer" | "place" => 2,
+            "switch" | "nothing" => 0,
             _ => 5,
         };
         let shape: Vec<u64> = dimensions.iter().map(|&name| length(name)).collect();
@@ -124,10 +158,10 @@ fn values_come_back_to_the_bit() {
             "1",
             "{name}"
         );
-        let link = if dimensions == [name] {
-            "CLASS"
-        } else {
-            "DIMENSION_LIST"
+        let link = match &dimensions[..] {
+            [] => continue,
+            [only] if *only == name => "CLASS",
+            _ => "DIMENSION_LIST",
         };
         assert!(array.attribute(link).is_ok(), "{name} has no {link}");
     }
@@ -174,13 +208,48 @@ fn a_dataset_is_a_file_of_the_folder() {
     let home = tempfile::tempdir().unwrap();
     let mut folder = ResultFolder::stage(&home.path().join("out")).unwrap();
     folder.write_dataset("data/map.nc", dataset()).unwrap();
-    let wrong = Dataset::new("").dimension("x", 0);
+    let wrong = Dataset::new("").dimension("", 1);
     assert!(matches!(
         folder.write_dataset("x.nc", wrong),
         Err(ResultsError::Dataset { .. })
     ));
     let file = folder.commit().unwrap().join("data/map.nc");
     assert_eq!(std::fs::read(file).unwrap(), dataset().to_bytes().unwrap());
+}
+
+#[test]
+fn a_dataset_can_be_read_in_memory() {
+    let dataset = dataset();
+    dataset.check().unwrap();
+    assert_eq!(dataset.dimensions()[0], ("seed".to_owned(), 5));
+    assert_eq!(dataset.variables().len(), arrays().len());
+    for (name, dimensions, values) in arrays() {
+        let variable = dataset.get(name).unwrap();
+        assert_eq!(
+            (variable.name(), variable.dimensions()),
+            (
+                name,
+                &dimensions.iter().map(|&d| d.to_owned()).collect::<Vec<_>>()[..]
+            )
+        );
+        assert_eq!(variable.values().len(), values.len());
+        assert_eq!(dataset.is_coordinate(name), dimensions == [name], "{name}");
+    }
+    let period = dataset.get("period").unwrap();
+    assert_eq!(period.attributes(), [("units".to_owned(), "1".into())]);
+    assert_eq!(period.flag_meanings()[0], (0, "not_periodic".to_owned()));
+    assert_eq!(period.fill_value(), None);
+    let title = |entry: &&(String, Attribute)| entry.0 == "title";
+    assert_eq!(
+        dataset.attributes().iter().find(title).unwrap().1,
+        "Attractors".into()
+    );
+    let settled = dataset
+        .into_variables()
+        .into_iter()
+        .find(|v| v.name() == "settled");
+    let expected = Values::Bool(vec![true, false, true, true, false, false]);
+    assert_eq!(settled.unwrap().into_values(), expected);
 }
 
 #[test]
@@ -211,7 +280,6 @@ fn misfits_are_named() {
             "`s` has the name of a dimension",
         ),
         (xy().dimension("x", 4), "`x` is a dimension twice"),
-        (xy().dimension("s", 0), "`s` has no values"),
         (xy().variable(array("a/b", &["x"], 2)), "`a/b` is no name"),
         (xy().attribute("", 1.0), "`` is no name"),
         (
@@ -234,6 +302,10 @@ fn misfits_are_named() {
             xy().variable(Variable::new("a", &["x"], vec![0.0; 2]).fill(0)),
             "`a` has flags or a fill value",
         ),
+        (
+            xy().variable(Variable::new("a", &["x"], vec![true; 2]).flags([(1, "b")])),
+            "`a` has flags or a fill value",
+        ),
     ];
     for (dataset, words) in cases {
         let error = dataset.to_bytes().unwrap_err().to_string();
@@ -245,18 +317,24 @@ fn misfits_are_named() {
 fn expected() -> String {
     let mut variables = serde_json::Map::new();
     for (name, dimensions, values) in arrays() {
-        let (kind, bytes) = little_endian(&values);
-        let mut digits = String::new();
-        for byte in bytes {
-            write!(digits, "{byte:02x}").unwrap();
-        }
+        let (kind, content) = match &values {
+            Values::Text(texts) => ("text", serde_json::json!(texts)),
+            _ => {
+                let (kind, bytes) = little_endian(&values);
+                let mut digits = String::new();
+                for byte in bytes {
+                    write!(digits, "{byte:02x}").unwrap();
+                }
+                (kind, digits.into())
+            }
+        };
         let mut attributes = serde_json::json!({ "units": "1" });
         if name == "period" {
             attributes["flag_values"] = serde_json::json!([0, 1, 2, 3]);
             attributes["flag_meanings"] = "not_periodic period_1 period_2 period_3".into();
         }
         let variable = serde_json::json!({
-            "dimensions": dimensions, "type": kind, "bytes": digits, "attributes": attributes,
+            "dimensions": dimensions, "type": kind, "content": content, "attributes": attributes,
         });
         variables.insert(name.to_owned(), variable);
     }

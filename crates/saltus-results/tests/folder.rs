@@ -28,7 +28,7 @@ fn a_new_folder_appears_whole_with_its_marker() {
     assert_eq!(names(target.parent().unwrap()), ["results"]);
     let marker: serde_json::Value =
         serde_json::from_slice(&fs::read(target.join(MARKER)).unwrap()).unwrap();
-    assert_eq!(marker["files"][1], "figures/one.svg");
+    assert_eq!(marker["files"][1]["name"], "figures/one.svg");
 }
 
 #[test]

@@ -22,17 +22,11 @@ pub(super) fn refuse(name: &str, problem: impl Into<String>) -> ResultsError {
     }
 }
 
-/// Every dimension is there once and has values, every name is free and allowed, every array has as many
+/// Every dimension is there once, every name is free and allowed, every array has as many
 /// values as its dimensions say, and every code fits the type of its array.
 pub(super) fn check(dataset: &Dataset) -> Result<(), ResultsError> {
-    for (index, (name, length)) in dataset.dimensions.iter().enumerate() {
+    for (index, (name, _)) in dataset.dimensions.iter().enumerate() {
         check_name(name)?;
-        if *length == 0 {
-            return Err(refuse(
-                name,
-                "has no values: a dimension needs one at least",
-            ));
-        }
         if dataset.dimensions[..index].iter().any(|d| d.0 == *name) {
             return Err(refuse(name, "is a dimension twice: use two names"));
         }
@@ -117,11 +111,14 @@ fn check_codes(variable: &Variable) -> Result<(), ResultsError> {
         Values::I32(_) => (i32::MAX, i32::MIN),
         Values::U16(_) => (u16::MAX.into(), 0),
         Values::U8(_) => (u8::MAX.into(), 0),
-        Values::F64(_) | Values::F32(_) if codes.clone().next().is_some() => {
+        Values::I64(_) => return Ok(()),
+        Values::F64(_) | Values::F32(_) | Values::Bool(_) | Values::Text(_) => {
             let problem = "has flags or a fill value, which are for arrays of whole numbers";
-            return Err(refuse(&variable.name, problem));
+            return match codes.into_iter().next() {
+                Some(_) => Err(refuse(&variable.name, problem)),
+                None => Ok(()),
+            };
         }
-        Values::F64(_) | Values::F32(_) => return Ok(()),
     };
     match codes
         .into_iter()

@@ -158,6 +158,9 @@ fn array(variable: Variable, scales: &Scales) -> Result<DatasetBuilder, Error> {
         // The codes are known to fit.
         Values::U16(values) => codes.integers(&name, &shape, &values, |code| code as u16)?,
         Values::U8(values) => codes.integers(&name, &shape, &values, |code| code as u8)?,
+        Values::I64(values) => codes.integers(&name, &shape, &values, i64::from)?,
+        Values::Bool(values) => yes_or_no(&name, &shape, &values)?,
+        Values::Text(values) => texts(&name, &shape, &values)?,
     };
     dataset = match own {
         Some(scale) => scale.mark(dataset, &name)?,
@@ -174,10 +177,6 @@ fn array(variable: Variable, scales: &Scales) -> Result<DatasetBuilder, Error> {
         dataset = dataset.attribute(attribute(name, value)?);
     }
     if !words.is_empty() {
-        let words: Vec<String> = words
-            .iter()
-            .map(|word| word.trim().replace(char::is_whitespace, "_"))
-            .collect();
         dataset = dataset.attribute(text("flag_meanings", &words.join(" "))?);
     }
     Ok(dataset)
@@ -197,6 +196,21 @@ fn floats<T: H5WriteElement>(
     } else {
         Ok(dataset)
     }
+}
+
+/// Yes or no as CF flags and as xarray marks what it wrote itself.
+fn yes_or_no(name: &str, shape: &[u64], values: &[bool]) -> Result<DatasetBuilder, Error> {
+    let values: Vec<u8> = values.iter().map(|&value| value.into()).collect();
+    Ok(plain(name, shape, &values)
+        .attribute(numbers("flag_values", &[0_u8, 1]))
+        .attribute(text("flag_meanings", "false true")?)
+        .attribute(text("dtype", "bool")?))
+}
+
+/// Texts of any length. Filters would reach only the references to them.
+fn texts(name: &str, shape: &[u64], values: &[String]) -> Result<DatasetBuilder, Error> {
+    let values: Vec<String> = values.iter().map(|value| printable(value)).collect();
+    DatasetBuilder::vlen_string_data(name, shape, &values)
 }
 
 /// What the whole numbers of an array mean, in the type of the array as CF 3.5 asks.
@@ -296,11 +310,15 @@ fn numbers<T: H5WriteElement>(name: &str, values: &[T]) -> AttributeBuilder {
 
 /// Short plain text as characters; long text, and letters beyond ASCII, as a string.
 fn text(name: &str, content: &str) -> Result<AttributeBuilder, Error> {
-    // A string ends at its first zero byte.
-    let content = content.replace('\0', " ");
+    let content = printable(content);
     if content.is_ascii() && content.len() <= SHORT_TEXT {
         Ok(AttributeBuilder::fixed_string(name, content))
     } else {
         AttributeBuilder::vlen_strings(name, &[content])
     }
+}
+
+/// A string ends at its first zero byte.
+fn printable(content: &str) -> String {
+    content.replace('\0', " ")
 }

@@ -62,6 +62,13 @@ pub enum Values {
     U16(Vec<u16>),
     /// Whole numbers, one byte each.
     U8(Vec<u8>),
+    /// Whole numbers with a sign, eight bytes each.
+    I64(Vec<i64>),
+    /// Yes or no, one byte each: 1 and 0 with flags that say so, and the attribute `dtype` by which xarray
+    /// knows its own boolean arrays.
+    Bool(Vec<bool>),
+    /// Texts of any length, not compressed: for labels, not for books.
+    Text(Vec<String>),
 }
 
 /// The value of an attribute.
@@ -108,7 +115,8 @@ impl Dataset {
         self
     }
 
-    /// Adds a dimension of `length` without values along it.
+    /// Adds a dimension of `length` without values along it. The length may be zero, as that
+    /// of the switches of a run without any.
     #[must_use]
     pub fn dimension(mut self, name: impl Into<String>, length: usize) -> Self {
         self.dimensions.push((name.into(), length));
@@ -125,11 +133,49 @@ impl Dataset {
     /// The file as bytes. While it is made, each array is in memory once as it is and twice compressed.
     ///
     /// # Errors
-    /// [`ResultsError::Dataset`], which names the part that does not fit: a dimension that is missing,
-    /// empty or given twice, a wrong number of values, a name that NetCDF does not allow.
+    /// As [`check`](Self::check).
     pub fn to_bytes(self) -> Result<Vec<u8>, ResultsError> {
-        check::check(&self)?;
+        self.check()?;
         file::encode(self)
+    }
+
+    /// Whether all parts fit each other, for who takes them from memory.
+    ///
+    /// # Errors
+    /// [`ResultsError::Dataset`], which names the part that does not fit: a dimension that is missing or
+    /// given twice, a wrong number of values, a name that NetCDF does not allow.
+    pub fn check(&self) -> Result<(), ResultsError> {
+        check::check(self)
+    }
+
+    /// Names and lengths of the dimensions.
+    pub fn dimensions(&self) -> &[(String, usize)] {
+        &self.dimensions
+    }
+
+    /// Coordinates and variables, in the order of the file.
+    pub fn variables(&self) -> &[Variable] {
+        &self.variables
+    }
+
+    /// The variable or coordinate of this name.
+    pub fn get(&self, name: &str) -> Option<&Variable> {
+        self.variables.iter().find(|known| known.name == name)
+    }
+
+    /// Whether `name` is a coordinate: the values along the dimension of the same name.
+    pub fn is_coordinate(&self, name: &str) -> bool {
+        self.dimensions.iter().any(|known| known.0 == name) && self.get(name).is_some()
+    }
+
+    /// Names and values of the attributes of the whole dataset.
+    pub fn attributes(&self) -> &[(String, Attribute)] {
+        &self.attributes
+    }
+
+    /// Coordinates and variables, to be taken over without a copy.
+    pub fn into_variables(self) -> Vec<Variable> {
+        self.variables
     }
 }
 
@@ -168,8 +214,9 @@ impl Variable {
     /// A meaning is one word there; spaces within become `_`.
     #[must_use]
     pub fn flags<T: Into<String>>(mut self, meanings: impl IntoIterator<Item = (i32, T)>) -> Self {
+        let word = |word: T| word.into().trim().replace(char::is_whitespace, "_");
         let meanings = meanings.into_iter();
-        self.flags = meanings.map(|(value, word)| (value, word.into())).collect();
+        self.flags = meanings.map(|(value, text)| (value, word(text))).collect();
         self
     }
 
@@ -187,6 +234,41 @@ impl Variable {
     pub fn attribute(mut self, name: impl Into<String>, value: impl Into<Attribute>) -> Self {
         set(&mut self.attributes, name.into(), value.into());
         self
+    }
+
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Names of its dimensions, the last of which varies fastest; none for a single value.
+    pub fn dimensions(&self) -> &[String] {
+        &self.dimensions
+    }
+
+    /// Its values.
+    pub fn values(&self) -> &Values {
+        &self.values
+    }
+
+    /// Its values, taken over without a copy.
+    pub fn into_values(self) -> Values {
+        self.values
+    }
+
+    /// Names and values of its attributes, without those that follow from flags and fill value.
+    pub fn attributes(&self) -> &[(String, Attribute)] {
+        &self.attributes
+    }
+
+    /// What its whole numbers mean, each a single word: `flag_values` and `flag_meanings` in the file.
+    pub fn flag_meanings(&self) -> &[(i32, String)] {
+        &self.flags
+    }
+
+    /// The value that stands for "no value", if one was given: `_FillValue` in the file.
+    pub fn fill_value(&self) -> Option<i32> {
+        self.fill
     }
 }
 
@@ -207,12 +289,22 @@ impl Values {
             Self::I32(values) => values.len(),
             Self::U16(values) => values.len(),
             Self::U8(values) => values.len(),
+            Self::I64(values) => values.len(),
+            Self::Bool(values) => values.len(),
+            Self::Text(values) => values.len(),
         }
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
+    }
+}
+
+/// A single value, for a variable without dimensions.
+impl From<f64> for Values {
+    fn from(value: f64) -> Self {
+        Self::F64(vec![value])
     }
 }
 
@@ -233,6 +325,9 @@ holds!(
     Values::I32(Vec<i32>),
     Values::U16(Vec<u16>),
     Values::U8(Vec<u8>),
+    Values::I64(Vec<i64>),
+    Values::Bool(Vec<bool>),
+    Values::Text(Vec<String>),
     Attribute::Text(String),
     Attribute::Number(f64),
     Attribute::Integer(i32),
