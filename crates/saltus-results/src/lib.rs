@@ -34,5 +34,5 @@ pub use figure::{
 pub use folder::{ResultFolder, write_file_atomically};
 pub use manifest::{FileRecord, Manifest, Problem};
 pub use page::{Fact, FigureBlock, Image, Page, Verdict};
-pub use pieces::{Damage, PieceStore, Survey};
+pub use pieces::{Damage, PieceStore, Seal, Survey};
 pub use table::{CsvTable, MarkdownTable, Value};
