@@ -18,6 +18,7 @@ mod models;
 mod motion;
 mod orbit;
 mod per_jumper;
+mod pieces;
 mod plane;
 mod portrait;
 mod repeats;
@@ -29,8 +30,9 @@ mod store;
 mod sweep;
 mod words;
 
-pub use context::{Context, Keep, Stage, Unwatched, Watch};
+pub use context::{Context, Found, Keep, Place, Stage, Unwatched, Watch};
 pub use describe::{describe, warnings};
 pub use failure::Failure;
+pub use pieces::{Lack, Shard, ShardError, Share};
 pub use request::{Answer, Labelled, Request};
 pub use store::{Fill, Folder, Rows, Store};

@@ -240,7 +240,9 @@ impl PieceStore {
     pub fn remove(self) -> Result<(), ResultsError> {
         let Self { dir, lock, .. } = &self;
         // The manifest goes last: without it what is left would look like a folder of somebody else.
-        self.remove_files(|name| name.ends_with(ASIDE) || name == REMARK || number_of(name).is_some())?;
+        self.remove_files(|name| {
+            name.ends_with(ASIDE) || name == REMARK || number_of(name).is_some()
+        })?;
         self.remove_files(|name| name == MANIFEST)?;
         let _ = lock.unlock();
         self.remove_files(|name| name == LOCK)?;
