@@ -74,7 +74,10 @@ Folder (--out):
 
 A value that has no model, or whose run ends early, is a row that says so. Only
 if no row is completed nothing is printed or written, and the exit code is 1 (2
-if the study is to blame). Results are the same bits for any --threads.";
+if the study is to blame). Results are the same bits for any --threads.
+
+With sweep.direction = \"restarts\" and --out finished pieces are kept until the
+results are written; --resume, --shard and --merge as in `saltus map`.";
 
 /// Below `saltus map --help`.
 pub(crate) const MAP: &str = "\
@@ -121,7 +124,17 @@ Folder (--out):
 Finished pieces are kept beside the folder, in .NAME.saltus-pieces, until it is
 written. After an interruption (Ctrl-C, a kill, a power cut) the same command
 with --resume goes on; the results are the same bits as without interruption,
-and for any --threads.";
+and for any --threads.
+
+Many processes, on as many machines as see the folder: --shard 1/64 to 64/64
+make every 64th piece each, in any order and side by side; one that was killed
+does only what is missing when it is started again. Then the same command with
+--merge puts the pieces together, or names each that is missing, truncated,
+altered or of other work (exit code 3); with --resume such pieces are computed
+first. Pieces are of the study, the version and the way a processor rounds; the
+bits are those of a single run. There are at most 4096 pixels in a piece, some
+256 pieces of a small plane and 24 415 of 10 000 x 10 000 pixels: more shards
+than pieces have nothing to do.";
 
 /// Below `saltus basins --help`.
 pub(crate) const BASINS: &str = "\
@@ -159,7 +172,7 @@ Folder (--out):
   study.toml, basins.json, basins.nc, attractors.csv (one line per attractor,
   jumper and sample) and the figures basins and layers as SVG and PNG.
 
---resume as in `saltus map`.";
+--resume, --shard and --merge as in `saltus map`.";
 
 /// Below `saltus orbit --help`.
 pub(crate) const ORBIT: &str = "\
