@@ -25,10 +25,11 @@ JSON (--json, and simulate.json in --out):
   periods, period_s, base_hz, steps, version, study (as resolved)
 
 Folder (--out):
-  study.toml, simulate.json, section.csv, switches.csv, history.csv, energy.csv
-  and the figures portrait and history as SVG and PNG (for an empty plate the
-  figure section). The time history covers the last 20 periods at most;
-  simulate.transient is left out of it and of the figures.
+  study.toml, simulate.json, section.csv, switches.csv, history.csv, energy.csv,
+  simulate.nc (all of these as arrays: xarray.open_dataset) and the figures
+  portrait and history as SVG and PNG (for an empty plate the figure section).
+  The time history covers the last 20 periods at most; simulate.transient is
+  left out of it and of the figures.
 
 A run that ends early (chattering, ...) is told in full, with its status, and
 ends with exit code 1. solver.method = \"rk4\" with a step above its stability
@@ -69,7 +70,8 @@ JSON (--json, and sweep.json in --out):
   version, study (as resolved)
 
 Folder (--out):
-  study.toml, sweep.json, sweep.csv (samples), rows.csv and the figures
+  study.toml, sweep.json, sweep.csv (samples), rows.csv, sweep.nc (arrays over
+  pass, value, jumper and sample: xarray.open_dataset) and the figures
   bifurcation and, with sweep.exponents, exponents as SVG and PNG.
 
 A value that has no model, or whose run ends early, is a row that says so. Only
@@ -207,8 +209,9 @@ JSON (--json, and orbit.json in --out):
   several.
 
 Folder (--out):
-  study.toml, orbit.json, section.csv, multipliers.csv, switches.csv and the
-  figures portrait and multipliers as SVG and PNG.
+  study.toml, orbit.json, section.csv, multipliers.csv, switches.csv, orbit.nc
+  (these and the way around as arrays: xarray.open_dataset) and the figures
+  portrait and multipliers as SVG and PNG.
 
 If no orbit is found the exit code is 1, and the message says how far the search
 came.";
@@ -250,10 +253,11 @@ JSON (--json, and continue.json in --out):
 
 Folder (--out):
   study.toml, continue.json, branches.csv (one line per point and place of the
-  orbit), special_points.csv, ends.csv, curves.csv, and the figures branches and
-  curves as SVG and PNG. Behind the branches lie the long-term motions at
-  continue.cloud values, 50 forcing periods after 150, the state carried on
-  upwards and downwards.";
+  orbit), special_points.csv, ends.csv, curves.csv, continue.nc (arrays over
+  point, special point and point of a curve, with all multipliers:
+  xarray.open_dataset), and the figures branches and curves as SVG and PNG.
+  Behind the branches lie the long-term motions at continue.cloud values, 50
+  forcing periods after 150, the state carried on upwards and downwards.";
 
 /// Below `saltus lyapunov --help`.
 pub(crate) const LYAPUNOV: &str = "\
@@ -295,8 +299,8 @@ JSON (--json, and lyapunov.json in --out):
 
 Folder (--out):
   study.toml, lyapunov.json, convergence.csv (the exponents from the first
-  periods of the record, over how many these are) and the figure convergence as
-  SVG and PNG.
+  periods of the record, over how many these are), lyapunov.nc (as arrays:
+  xarray.open_dataset) and the figure convergence as SVG and PNG.
 
 Replicas that end early (chattering, ...) are told with what they measured, and
 exit code 1. Results are the same bits for any --threads.";
@@ -353,7 +357,8 @@ JSON (--json, and attractors.json in --out):
 
 Folder (--out):
   study.toml, attractors.json, attractors.csv (one line per value, attractor and
-  jumper), sections.csv (one per sample of these), loops.csv, and the figure
+  jumper), sections.csv (one per sample of these), loops.csv, attractors.nc
+  (arrays over value and attractor: xarray.open_dataset), and the figure
   attractors as SVG and PNG.
 
 Results are the same bits for any --threads.";
