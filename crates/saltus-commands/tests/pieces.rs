@@ -202,8 +202,8 @@ fn what_has_no_pieces_says_so() {
 fn values_without_a_model_and_runs_that_fail_come_through_pieces() {
     let sets = [
         "sweep.parameter=jumper.x",
-        "sweep.from=-1.0",
-        "sweep.to=7.0",
+        "sweep.from=1.0",
+        "sweep.to=100.0",
         "solver.max_switches=3",
     ];
     let study = study(&sets);
