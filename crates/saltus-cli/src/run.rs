@@ -48,7 +48,7 @@ fn work(request: &Request, args: &WorkArgs) -> Result<(), Ending> {
         threads: &args.threads,
         keep: None,
     };
-    answer(request, &study, how)
+    answer(request, &study, &how)
 }
 
 fn simulate(args: &SimulateArgs) -> Result<(), Ending> {
@@ -60,7 +60,7 @@ fn simulate(args: &SimulateArgs) -> Result<(), Ending> {
         threads: &args.threads,
         keep: None,
     };
-    answer(&Request::Simulate, &study, how)
+    answer(&Request::Simulate, &study, &how)
 }
 
 fn divided(request: &Request, args: &DividedArgs) -> Result<(), Ending> {
@@ -78,8 +78,8 @@ fn divided(request: &Request, args: &DividedArgs) -> Result<(), Ending> {
         keep,
     };
     match args.shard {
-        Some(shard) => share(request, &study, shard, how),
-        None => answer(request, &study, how),
+        Some(shard) => share(request, &study, shard, &how),
+        None => answer(request, &study, &how),
     }
 }
 
@@ -109,7 +109,7 @@ fn reproduce(args: &ReproduceArgs) -> Result<(), Ending> {
     answer(
         &Request::Reproduce { quick: args.quick },
         &Study::paper(),
-        how,
+        &how,
     )?;
     if args.json || args.quiet {
         return Ok(());
@@ -142,7 +142,7 @@ impl How<'_> {
 }
 
 /// Makes the pieces of a shard, and tells which.
-fn share(request: &Request, study: &Study, shard: Shard, how: How) -> Result<(), Ending> {
+fn share(request: &Request, study: &Study, shard: Shard, how: &How) -> Result<(), Ending> {
     let bars = Bars::new(how.output.quiet);
     let context = how.context(&bars);
     how.try_out(request, study, &context)?;
@@ -150,7 +150,7 @@ fn share(request: &Request, study: &Study, shard: Shard, how: How) -> Result<(),
 }
 
 /// Asks, writes the folder of results if one was asked for, and tells what was found.
-fn answer(request: &Request, study: &Study, how: How) -> Result<(), Ending> {
+fn answer(request: &Request, study: &Study, how: &How) -> Result<(), Ending> {
     let bars = Bars::new(how.output.quiet);
     let context = how.context(&bars);
     let study = &request.study(study)?;

@@ -200,11 +200,14 @@ fn what_has_no_pieces_says_so() {
 
 #[test]
 fn values_without_a_model_and_runs_that_fail_come_through_pieces() {
+    // steps that a thick plate, which is stiff, cannot take
     let sets = [
-        "sweep.parameter=jumper.x",
-        "sweep.from=-1.0",
-        "sweep.to=7.0",
-        "solver.max_switches=3",
+        "sweep.parameter=plate.thickness",
+        "sweep.from=0.05",
+        "sweep.to=0.6",
+        "solver.method=rk4",
+        "solver.steps_per_period=40",
+        "solver.max_switches=2",
     ];
     let study = study(&sets);
     let pieces = pieces(&Request::Sweep, &study);

@@ -9,12 +9,10 @@ use crate::attractors;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::pieces::{self, Divided, Kept};
-use crate::plane::{self, Cell, Layers, Pixels, Plane};
+use crate::plane::{self, Begun, Cell, Layers, Pixels, Plane};
 use crate::request::Answer;
 use crate::store::{self, Store};
 use report::Report;
-use saltus::hybrid::Point;
-use saltus::model::{Model, ModelError};
 use saltus::study::{Catalogue, Entry};
 use saltus_config::Study;
 use saltus_results::Variable;
@@ -101,9 +99,7 @@ pub(crate) fn divided(study: &Study) -> Result<Box<dyn Divided + '_>, Failure> {
     Ok(Box::new(job(study)?))
 }
 
-fn job(
-    study: &Study,
-) -> Result<Pixels<'_, impl Fn(f64, f64) -> Result<(Model, Point), ModelError> + Sync>, Failure> {
+fn job(study: &Study) -> Result<Pixels<'_, impl Fn(f64, f64) -> Begun + Sync>, Failure> {
     let plane = question(study)?;
     let model = study.setup().model()?;
     model.check_step(&study.options())?;

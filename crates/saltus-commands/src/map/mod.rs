@@ -8,12 +8,10 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::models::Models;
 use crate::pieces::{self, Divided, Kept};
-use crate::plane::{self, Cell, Layers, Pixels, Plane};
+use crate::plane::{self, Begun, Cell, Layers, Pixels, Plane};
 use crate::request::Answer;
 use crate::store::{self, Store};
 use report::Report;
-use saltus::hybrid::Point;
-use saltus::model::{Model, ModelError};
 use saltus_config::Study;
 use std::io::{self, Write};
 use std::path::Path;
@@ -62,9 +60,7 @@ pub(crate) fn divided(study: &Study) -> Result<Box<dyn Divided + '_>, Failure> {
     Ok(Box::new(job(study)?))
 }
 
-fn job(
-    study: &Study,
-) -> Result<Pixels<'_, impl Fn(f64, f64) -> Result<(Model, Point), ModelError> + Sync>, Failure> {
+fn job(study: &Study) -> Result<Pixels<'_, impl Fn(f64, f64) -> Begun + Sync>, Failure> {
     let plane = question(study)?;
     let parameters = [&plane.y.parameter, &plane.x.parameter];
     let models = Models::new(study, &parameters, study.options());

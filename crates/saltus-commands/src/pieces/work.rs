@@ -215,23 +215,48 @@ fn produce<J: Job>(
     let cut = Cut::of(job);
     for some in pieces.chunks(cut.together(control.threads)) {
         let items: Vec<usize> = some.iter().flat_map(|&piece| cut.of_piece(piece)).collect();
-        let mut under_way: BTreeMap<u32, (usize, Vec<Option<J::Item>>)> = BTreeMap::new();
+        let mut under_way = BTreeMap::new();
         job.compute(&items, control, &mut |number, item| {
             let piece = cut.piece(number);
             let own = cut.of_piece(piece);
-            let new = || (own.len(), own.clone().map(|_| None).collect());
-            let (left, list) = under_way.entry(piece).or_insert_with(new);
-            if list[number - own.start].replace(item).is_none() {
-                *left -= 1;
-            }
-            if *left > 0 {
+            let open: &mut Open<_> = under_way
+                .entry(piece)
+                .or_insert_with(|| Open::new(own.len()));
+            if !open.put(number - own.start, item) {
                 return Ok(());
             }
-            let (_, list) = under_way.remove(&piece).unwrap_or_default();
-            sink(piece, list.into_iter().flatten().collect())
+            let complete = under_way.remove(&piece);
+            sink(piece, complete.map_or(Vec::new(), Open::items))
         })?;
     }
     Ok(())
+}
+
+/// A piece under way.
+struct Open<T> {
+    left: usize,
+    items: Vec<Option<T>>,
+}
+
+impl<T> Open<T> {
+    fn new(items: usize) -> Self {
+        Self {
+            left: items,
+            items: (0..items).map(|_| None).collect(),
+        }
+    }
+
+    /// Takes an item, and says whether it was the last one.
+    fn put(&mut self, place: usize, item: T) -> bool {
+        if self.items[place].replace(item).is_none() {
+            self.left -= 1;
+        }
+        self.left == 0
+    }
+
+    fn items(self) -> Vec<T> {
+        self.items.into_iter().flatten().collect()
+    }
 }
 
 /// Pieces on their way to `gather`.

@@ -124,6 +124,9 @@ pub(super) fn need_people(study: &Study, command: &str) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Model and start of a pixel.
+pub(super) type Begun = Result<(Model, Point), ModelError>;
+
 /// The cells of a plane, as work that can be cut.
 pub(super) struct Pixels<'a, F> {
     pub(super) command: &'static str,
@@ -135,7 +138,7 @@ pub(super) struct Pixels<'a, F> {
 
 impl<F> Job for Pixels<'_, F>
 where
-    F: Fn(f64, f64) -> Result<(Model, Point), ModelError> + Sync,
+    F: Fn(f64, f64) -> Begun + Sync,
 {
     type Item = Cell;
     const LEAST: usize = 16;
