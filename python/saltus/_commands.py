@@ -153,9 +153,7 @@ def map(  # noqa: A001 (the word of the program)
     study = as_study(study)
     if x is not None or y is not None:
         table: Map = _needed(study, "map")
-        study = study.replace(
-            map=dataclasses.replace(table, x=_axis(table.x, x), y=_axis(table.y, y))
-        )
+        study = study.replace(map=dataclasses.replace(table, x=_axis(table.x, x), y=_axis(table.y, y)))
     return _ask({"command": "map"}, study, out, threads, progress, resume=resume)
 
 
@@ -192,9 +190,7 @@ def basins(
     if z is not None or v is not None:
         table = study.basins
         if table is None and z is not None and v is not None:
-            new = Basins(
-                x=Axis(parameter="start.z", values=z), y=Axis(parameter="start.v", values=v)
-            )
+            new = Basins(x=Axis(parameter="start.z", values=z), y=Axis(parameter="start.v", values=v))
             study = study.replace(basins=new)
         else:
             table = _needed(study, "basins")

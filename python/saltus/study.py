@@ -85,9 +85,7 @@ class Study:
         return _of(_native.paper())
 
     @classmethod
-    def load(
-        cls, path: str | os.PathLike[str], changes: Mapping[str, object] | None = None
-    ) -> Study:
+    def load(cls, path: str | os.PathLike[str], changes: Mapping[str, object] | None = None) -> Study:
         """Read a study file, with changes as in :meth:`set`."""
         return _of(_native.load(Path(path), _overrides(changes)))
 
