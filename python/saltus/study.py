@@ -41,8 +41,9 @@ __all__ = ["Study", "StudyLike", "as_study"]
 class Study:
     """A plate, the people on it, the base that shakes it, and what is asked about them.
 
-    What is given is checked at once, as the program checks a study file; what is left out has the default that
-    its description tells. All of it can then be read off: a study in hand is valid, whole and never changes.
+    What is given is checked at once, as the program checks a study file; what is left out has the
+    default that its description tells. All of it can then be read off: a study in hand is valid,
+    whole and never changes.
 
     Any array-like serves where a list of numbers is needed.
 

@@ -17,7 +17,6 @@ import xarray
 
 import saltus
 from saltus import ResultError, Study, StudyError
-from saltus.__main__ import main
 
 #: Seconds on one core at most, all of it.
 QUICK = {
@@ -57,8 +56,8 @@ def test_python_and_the_program_give_the_same_bits(command: str, study: Study, t
     result = getattr(saltus, command)(study)
     saved = result.save(tmp_path / "python")
     study.save(tmp_path / "study.toml")
-    arguments = [command, str(tmp_path / "study.toml"), "--out", str(tmp_path / "program"), "-q"]
-    assert main(arguments) == 0
+    run = [sys.executable, "-m", "saltus", command, str(tmp_path / "study.toml")]
+    subprocess.run([*run, "--out", str(tmp_path / "program"), "-q"], timeout=120, check=True)
     same_folders(saved, tmp_path / "program")
     file = xarray.open_dataset(saved / f"{command}.nc", engine="h5netcdf")
     assert file.identical(result.to_xarray())
@@ -67,17 +66,15 @@ def test_python_and_the_program_give_the_same_bits(command: str, study: Study, t
 
 
 def test_arrays_have_axes_units_and_words(study: Study) -> None:
-    result = saltus.sweep(study, values=np.linspace(0.2, 0.4, 3, dtype=np.float32))
+    values = np.linspace(0.2, 0.4, 3, dtype=np.float32)
+    result = saltus.sweep(study, values=values)
     assert result["z"].shape == (2, 3, 1, 8)
     assert result.variables["z"].dims[1] == "jumper_damping_ratio"
     assert result.study.sweep is not None
-    assert result.study.sweep.values == tuple(float(v) for v in np.float32([0.2, 0.3, 0.4]))
+    assert result.study.sweep.values == tuple(values.tolist())
     assert set(result.words("label").ravel()) <= {"periodic", "quasi-periodic", "chaotic", "undecided"}
-    for name, variable in result.variables.items():
-        assert variable.values.shape == tuple(
-            len(result[d]) if d in result else n
-            for d, n in zip(variable.dims, variable.values.shape, strict=True)
-        ), name
+    assert result.variables["z"].values.shape[1] == len(result["jumper_damping_ratio"])
+    assert result.variables["jumper_damping_ratio"].attrs["units"] == "1"
 
 
 def test_tables_figures_and_documents_are_those_of_the_folder(study: Study, tmp_path: Path) -> None:
@@ -123,7 +120,7 @@ def test_a_question_that_is_not_there_is_named(study: Study) -> None:
     with pytest.raises(StudyError, match=r"map\.x\.values.*nan"):
         saltus.map(study, x=[0.1, np.nan])
     with pytest.raises(StudyError, match=r"map\.x\.values"):
-        saltus.map(study, x=[[0.1, 0.2], [0.3, 0.4]])
+        saltus.map(study, x=[[0.1, 0.2], [0.3, 0.4]])  # type: ignore[list-item]
 
 
 def test_a_folder_of_others_is_not_written_to(study: Study, tmp_path: Path) -> None:

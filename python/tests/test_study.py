@@ -12,7 +12,6 @@ import pytest
 
 import saltus
 from saltus import Axis, Base, Contact, Jumper, Map, ModeLists, Plate, Study, StudyError, Sweep
-from saltus.__main__ import main
 
 PLATE = Plate(
     length=14.0,
@@ -33,6 +32,11 @@ def small(**tables: object) -> Study:
     return Study(plate=PLATE, base=BASE, contact=contact, jumper=[JUMPER]).replace(**tables)
 
 
+def program(*arguments: str) -> subprocess.CompletedProcess[str]:
+    run = [sys.executable, "-m", "saltus", *arguments]
+    return subprocess.run(run, capture_output=True, text=True, timeout=120, check=False)
+
+
 def test_what_is_left_out_has_its_default() -> None:
     study = small()
     assert study.plate.inertia == "full"
@@ -47,18 +51,15 @@ def test_a_file_of_either_side_loads_in_the_other(tmp_path: Path) -> None:
     study.save(path)
     assert Study.load(path) == study
     assert Study.load(path).hash == study.hash
-    assert main(["check", str(path), "--quiet"]) == 0
+    assert program("check", str(path), "--quiet").returncode == 0
     written = tmp_path / "paper.toml"
-    assert main(["init", "paper", "--out", str(written)]) == 0
+    assert program("init", "paper", "--out", str(written)).returncode == 0
     assert Study.load(written) == Study.paper()
 
 
-def test_the_program_comes_with_the_package(capfd: pytest.CaptureFixture[str]) -> None:
-    assert main(["--version"]) == 0
-    assert capfd.readouterr().out.split() == ["saltus", saltus.__version__]
-    assert main(["no-such-command"]) == 2
-    run = [sys.executable, "-m", "saltus", "--version"]
-    assert subprocess.run(run, capture_output=True, check=True).stdout.startswith(b"saltus")
+def test_the_program_comes_with_the_package() -> None:
+    assert program("--version").stdout.split() == ["saltus", saltus.__version__]
+    assert program("no-such-command").returncode == 2
 
 
 @pytest.mark.parametrize(
@@ -87,9 +88,9 @@ def test_fields_are_checked_when_a_study_is_made() -> None:
         small(base=Base(amplitude=float("inf"), frequency_ratio=1.0))
     assert refused.value.key == "base.amplitude"
     wrong = Sweep(parameter="jumper.damping_ratio", values=[0.1, 0.3, 0.2])
-    with pytest.raises(StudyError, match="sweep.values.2"):
+    with pytest.raises(StudyError, match=r"sweep\.values\.2"):
         small(sweep=wrong)
-    with pytest.raises(TypeError, match="sweep.values"):
+    with pytest.raises(TypeError, match=r"sweep\.values"):
         small(sweep=Sweep(parameter="jumper.damping_ratio", values=[0.1, 1j]))  # type: ignore[list-item]
 
 
