@@ -78,9 +78,7 @@ def modes_array(name: str, value: ArrayLike, counts: tuple[int, ...]) -> NDArray
         first = np.unravel_index(int(np.argmax(wrong)), array.shape)
         index = ", ".join(str(int(i)) for i in first)
         most = counts[int(first[-1])] - 1
-        raise ValueError(
-            f"{name}[{index}] is {array[first]}: 0 to {most} are the modes of that unit"
-        )
+        raise ValueError(f"{name}[{index}] is {array[first]}: 0 to {most} are the modes of that unit")
     return np.ascontiguousarray(array, dtype=np.uint8)
 
 
@@ -121,8 +119,7 @@ def _kind(array: NDArray[Any]) -> str:
 def _fit(name: str, shape: tuple[int, ...], trailing: tuple[int | str, ...]) -> None:
     last = shape[len(shape) - len(trailing) :] if trailing else ()
     fits = len(shape) >= len(trailing) and all(
-        isinstance(wanted, str) or wanted == found
-        for wanted, found in zip(trailing, last, strict=False)
+        isinstance(wanted, str) or wanted == found for wanted, found in zip(trailing, last, strict=False)
     )
     if not fits:
         wanted = ", ".join(["...", *map(str, trailing)])

@@ -7,6 +7,27 @@ from typing import Any, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = [
+    "Answer",
+    "Exponents",
+    "Figure",
+    "Orbit",
+    "Program",
+    "Trajectories",
+    "__version__",
+    "ask",
+    "count",
+    "describe",
+    "load",
+    "paper",
+    "paper_template",
+    "parse",
+    "program",
+    "resolve",
+    "schema",
+    "shut_down",
+]
+
 __version__: str
 
 _Progress: TypeAlias = Callable[[str, int, int | None], object] | None

@@ -19,7 +19,7 @@ struct Report<'a> {
 pub(crate) fn run(args: &WorkArgs) -> Result<(), Ending> {
     let study = crate::run::load(&args.study, &[])?;
     if let Some(out) = &args.output.out {
-        Folder::stage(out, &study, &Context::default())?.commit()?;
+        Folder::stage(out, None, &study, &Context::default())?.commit()?;
     }
     let file = args.study.file.display().to_string();
     if args.output.json {

@@ -126,7 +126,7 @@ fn answer(request: &Request, study: &Study, how: How) -> Result<(), Ending> {
     let study = &request.study(study)?;
     if let Some(out) = &how.output.out {
         // refused before a long computation, but staged after it: a killed one leaves nothing behind
-        drop(Folder::stage(out, study, &context)?);
+        drop(Folder::stage(out, Some(request), study, &context)?);
     }
     let mut answer = request.ask(study, &context)?;
     if let Some(out) = &how.output.out {
@@ -145,7 +145,7 @@ fn write(
     out: &Path,
     context: &Context,
 ) -> Result<(), Failure> {
-    let mut folder = Folder::stage(out, study, context)?;
+    let mut folder = Folder::stage(out, Some(request), study, context)?;
     let written = answer
         .store(request, &mut folder)
         .and_then(|()| folder.commit());

@@ -1,10 +1,13 @@
 //! `saltus frequencies`: the plate empty, in its plane, and with the people on it.
 
+use crate::dataset::motion::jumpers;
+use crate::dataset::{about, numbered, variable};
 use crate::failure::Failure;
 use crate::request::Answer;
 use crate::store::{self, Store};
 use saltus::physics::PhysicsError;
 use saltus_config::Study;
+use saltus_results::Dataset;
 use serde::Serialize;
 use std::f64::consts::TAU;
 use std::io::{self, Write};
@@ -24,6 +27,8 @@ struct Frequencies {
     free_hz: Vec<f64>,
     /// Base motion, Omega/(2 pi).
     base_hz: f64,
+    #[serde(skip)]
+    study: Study,
 }
 
 pub(crate) fn ask(study: &Study) -> Result<Box<dyn Answer>, Failure> {
@@ -40,8 +45,8 @@ impl Answer for Frequencies {
         store::stream_json(to, self)
     }
 
-    fn fill(&self, _: &mut dyn Store) -> Result<(), Failure> {
-        Ok(())
+    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
+        store.dataset("frequencies.nc", dataset(self))
     }
 }
 
@@ -55,7 +60,48 @@ fn frequencies(study: &Study) -> Result<Frequencies, PhysicsError> {
         occupied_hz: occupied.hz,
         free_hz: jumpers.iter().map(|jumper| jumper.omega() / TAU).collect(),
         base_hz: study.base().omega(&plate, &jumpers)? / TAU,
+        study: study.clone(),
     })
+}
+
+/// All of them over dimensions of their own, for xarray and its like.
+fn dataset(found: &Frequencies) -> Dataset {
+    let modes = |set: Dataset, name: &str, hz: &[f64], long_name: &str| {
+        let dimension = format!("{name}_mode");
+        let counted = "Mode, the lowest frequency first";
+        set.coordinate(numbered(&dimension, 1, hz.len(), counted))
+            .variable(variable(
+                name,
+                &[&dimension],
+                hz.to_vec(),
+                (long_name, "Hz"),
+            ))
+    };
+    let body = found.body_hz.unwrap_or(f64::NAN);
+    let moves = "Of those occupied, the one in which the first jumper moves most";
+    let mut set = about("Natural frequencies of a plate with people", &found.study);
+    set = modes(set, "plate", &found.plate_hz, "Transverse, empty plate");
+    set = modes(
+        set,
+        "occupied",
+        &found.occupied_hz,
+        "Transverse, people standing on the plate",
+    );
+    set = modes(
+        set,
+        "in_plane",
+        &found.in_plane_hz,
+        "In the plane of the plate",
+    );
+    set.coordinate(jumpers(found.free_hz.len()))
+        .variable(variable(
+            "free",
+            &["jumper"],
+            found.free_hz.clone(),
+            ("Body on rigid ground", "Hz"),
+        ))
+        .variable(variable("body", &[], body, (moves, "Hz")))
+        .variable(variable("base", &[], found.base_hz, ("Base motion", "Hz")))
 }
 
 fn table(found: &Frequencies) -> String {

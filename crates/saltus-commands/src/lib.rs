@@ -4,10 +4,13 @@
 //! No terminal and no arguments: [`Request`] is what is asked, [`Context`] who asks, [`Answer`] what was
 //! found, [`Store`] where its parts go.
 
+mod about;
 mod attractors;
 mod basins;
+mod citations;
 mod context;
 mod continuation;
+mod dataset;
 mod describe;
 mod failure;
 mod frequencies;
@@ -29,6 +32,8 @@ mod store;
 mod sweep;
 mod words;
 
+pub use about::about;
+pub use citations::{Citation, citations};
 pub use context::{Context, Keep, Stage, Unwatched, Watch};
 pub use describe::{describe, warnings};
 pub use failure::Failure;

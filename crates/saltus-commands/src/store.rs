@@ -1,7 +1,9 @@
 //! Where the parts of an answer go: files of a folder, or memory.
 
+use crate::about::about;
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::request::Request;
 use saltus_config::Study;
 use saltus_results::{CsvTable, Dataset, Figure, ResultFolder, ResultsError, Value};
 use serde::Serialize;
@@ -94,13 +96,21 @@ pub struct Folder {
 }
 
 impl Folder {
-    /// Prepares `dir` and puts the resolved study in it. Done before a long computation, so that a
-    /// folder that cannot be written is refused at once.
+    /// Prepares `dir` for what was asked and puts the resolved study in it. Done before a long computation too,
+    /// so that a folder that cannot be written is refused at once.
     ///
     /// # Errors
     /// [`Failure::Results`] if the folder cannot be written or holds files of others.
-    pub fn stage(dir: &Path, study: &Study, context: &Context) -> Result<Self, Failure> {
+    pub fn stage(
+        dir: &Path,
+        request: Option<&Request>,
+        study: &Study,
+        context: &Context,
+    ) -> Result<Self, Failure> {
         let mut inner = ResultFolder::stage(dir)?;
+        if let Some(request) = request {
+            inner.about(about(request, study));
+        }
         inner.write("study.toml", study.to_toml())?;
         let stop = Arc::clone(&context.stop);
         Ok(Self { inner, stop })

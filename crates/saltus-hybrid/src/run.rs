@@ -55,6 +55,16 @@ pub enum Instructions {
 }
 
 impl Instructions {
+    /// Whether a multiply-add of the series is rounded once here. Machines that are equal in this give the same
+    /// bits; others differ by rounding.
+    pub fn fused(self) -> bool {
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        let fused = self.level().as_avx2().is_some();
+        #[cfg(not(any(target_arch = "x86", target_arch = "x86_64")))]
+        let fused = cfg!(target_arch = "aarch64");
+        fused
+    }
+
     pub(crate) fn level(self) -> Level {
         let best = Level::new();
         match self {

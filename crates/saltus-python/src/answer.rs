@@ -64,11 +64,11 @@ fn asked(
     let study = request.study(study)?;
     if let Some(out) = out {
         // refused before a long computation
-        drop(Folder::stage(out, &study, context)?);
+        drop(Folder::stage(out, Some(&request), &study, context)?);
     }
     let mut found = request.ask(&study, context)?;
     if let Some(out) = out {
-        let mut folder = Folder::stage(out, &study, context)?;
+        let mut folder = Folder::stage(out, Some(&request), &study, context)?;
         found.store(&request, &mut folder)?;
         folder.commit()?;
         found.stored()?;
@@ -145,7 +145,7 @@ impl Answer {
                 stop: stop.clone(),
                 ..Context::default()
             };
-            let mut folder = Folder::stage(&out, &self.study, &context)?;
+            let mut folder = Folder::stage(&out, Some(&self.request), &self.study, &context)?;
             self.found.store(&self.request, &mut folder)?;
             folder.commit().map(drop)
         })?;

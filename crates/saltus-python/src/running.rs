@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Duration;
 
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::{PyRuntimeError, PySystemExit};
 use pyo3::prelude::*;
 use saltus_commands::{Stage, Watch};
 
@@ -97,7 +97,7 @@ pub(crate) fn run<T: Send>(
 ///
 /// # Errors
 /// What a signal handler or the listener raises, such as KeyboardInterrupt, after the work has stopped;
-/// `InternalError` if the work panics.
+/// `InternalError` if the work panics; SystemExit if the program ends meanwhile.
 pub(crate) fn attended<T: Send>(
     py: Python<'_>,
     listener: &Listener,
@@ -122,6 +122,10 @@ pub(crate) fn attended<T: Send>(
     });
     let answer = answer.map_err(|panic| broken(&*panic))?;
     raised.map_or(Ok(()), Err)?;
+    if stop.load(Ordering::Relaxed) {
+        // The program ends: the thread that called may end without a word.
+        return Err(PySystemExit::new_err(()));
+    }
     board.report(py, listener)?;
     Ok(answer)
 }

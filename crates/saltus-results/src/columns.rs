@@ -149,7 +149,7 @@ impl Column {
     }
 
     /// Appends a cell that the type holds.
-    fn push(&mut self, cell: Value) {
+    pub(crate) fn push(&mut self, cell: Value) {
         match (self, cell) {
             (Self::F64(values), Value::Number(x)) => values.push(x),
             (Self::F64(values), Value::Integer(n)) => values.push(n as f64),
@@ -189,7 +189,7 @@ pub(crate) enum Kind {
 }
 
 impl Kind {
-    fn column(self) -> Column {
+    pub(crate) fn column(self) -> Column {
         match self {
             Self::F64 => Column::F64(Vec::new()),
             Self::I64 => Column::I64(Vec::new()),

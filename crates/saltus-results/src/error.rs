@@ -119,6 +119,14 @@ pub enum ResultsError {
         /// The file that would have marked it as a folder of pieces.
         manifest: &'static str,
     },
+    /// A folder that should hold pieces holds none, or is not there.
+    #[error("there are no pieces in `{}`: there is no `{manifest}`", path.display())]
+    AbsentPieces {
+        /// The folder in question.
+        path: PathBuf,
+        /// The file that would have marked it as a folder of pieces.
+        manifest: &'static str,
+    },
     /// A piece is there but not what was written.
     #[error("the piece `{}` is damaged ({problem}); it will have to be made again", path.display())]
     DamagedPiece {

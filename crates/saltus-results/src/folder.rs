@@ -87,6 +87,14 @@ impl ResultFolder {
         name: &str,
         fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), ResultsError> {
+        self.stage_file(name, |file| fill(file))
+    }
+
+    fn stage_file(
+        &mut self,
+        name: &str,
+        fill: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+    ) -> Result<(), ResultsError> {
         let relative = plain(name)?;
         let staged = self.content().join(&relative);
         let shown = self.target.join(&relative);
@@ -109,6 +117,23 @@ impl ResultFolder {
     /// As [`write`](Self::write), and [`ResultsError::Dataset`] if its parts do not fit each other.
     pub fn write_dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), ResultsError> {
         self.write(name, dataset.to_bytes()?)
+    }
+
+    /// Stages `table` as the Parquet file `name`.
+    ///
+    /// # Errors
+    /// As [`write`](Self::write).
+    #[cfg(feature = "parquet")]
+    pub fn write_parquet(
+        &mut self,
+        name: &str,
+        table: crate::ParquetTable,
+    ) -> Result<(), ResultsError> {
+        self.stage_file(name, |file| match table.finish(file) {
+            Ok(_) => Ok(()),
+            Err(ResultsError::Table { source }) => Err(source),
+            Err(error) => Err(io::Error::other(error)),
+        })
     }
 
     /// Moves everything into place and returns the folder's path.
@@ -205,15 +230,15 @@ fn replace(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> 
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
     let staged = builder.tempfile_in(parent(path))?;
-    fill_file(staged.as_file(), fill)?;
+    fill_file(staged.as_file(), |file| fill(file))?;
     staged.persist(path).map_err(|error| error.error)?;
     Ok(())
 }
 
 /// Fills a file and makes sure that every byte arrived: a full disk may only show at the last flush.
-fn fill_file<F: Write + Synced>(
+fn fill_file<F: Write + Synced + Send>(
     file: F,
-    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    fill: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> io::Result<()> {
     let mut writer = BufWriter::with_capacity(1 << 16, file);
     fill(&mut writer)?;

@@ -2,7 +2,13 @@
 //!
 //! A [`PieceStore`] is a folder with one file for each numbered piece and a manifest that says which work
 //! they belong to. A piece is written aside, brought to the disk and renamed, so it is there whole or not
-//! at all; its header and checksum tell if the disk kept it. One process works in a folder at a time.
+//! at all; its header and checksum tell if the disk kept it.
+//!
+//! One process works in a folder at a time, or many do that have it open [shared](PieceStore::open_shared), on
+//! as many machines as see the folder. Nothing depends on locks, which network file systems may lack or keep
+//! to one machine: two that write the same piece write the same bytes, whoever comes first names the work in
+//! the manifest, and each piece says to which work it belongs. Where there are locks they refuse early what
+//! would be of no use: a run of its own in a folder that others fill.
 //!
 //! ```
 //! use saltus_results::PieceStore;
@@ -19,32 +25,33 @@
 //! # Ok(())
 //! # }
 //! ```
-//!
-//! # Format of a piece
-//! All numbers little-endian: the eight letters `saltuspc`; format version (u32); CRC-32 of the manifest's
-//! fingerprint (u32); number of the piece (u32); CRC-32 of the 20 bytes so far and the content (u32);
-//! length of the content (u64); the content. CRC-32 is that of PNG and zlib.
+
+mod lock;
+mod piece;
+mod work;
+
+pub use work::work_in;
 
 use crate::ResultsError;
+use lock::{Access, LOCK, lock};
+use piece::{HEADER, crc, header, problem};
 use std::ffi::OsString;
-use std::fs::{self, File, TryLockError};
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::fs::{self, File};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use work::{compare, read_manifest, text_of};
 
 /// Name of the file that says which work the pieces belong to.
 pub const MANIFEST: &str = "saltus-pieces.json";
 
-/// Version of the format; pieces of another version are not read.
-const FORMAT: u32 = 1;
-const MAGIC: &[u8; 8] = b"saltuspc";
-/// Bytes before the content.
-const HEADER: usize = 32;
-/// The lock lives as long as the store; the file stays behind, unlocked, if a process is killed.
-const LOCK: &str = "lock";
 /// How the names of files in the making end; left by a killed process, they are removed at opening.
 const ASIDE: &str = ".part";
+/// The same for a shared folder. They stay until all is removed, since the one who opens the folder alone
+/// cannot rely on a lock to know that their writers are gone.
+const ASIDE_SHARED: &str = ".shared.part";
 
-/// A folder of numbered pieces, locked against other processes until dropped.
+/// A folder of numbered pieces, locked until dropped: against all other processes, or, if shared, against
+/// those that want it for themselves.
 ///
 /// All methods but [`remove`](Self::remove) take `&self`: threads may share the store and write different
 /// pieces at the same time.
@@ -53,6 +60,7 @@ pub struct PieceStore {
     dir: PathBuf,
     /// CRC-32 of the fingerprint, in each piece: one from other work is told from ours.
     fingerprint: u32,
+    access: Access,
     lock: File,
 }
 
@@ -103,14 +111,47 @@ impl PieceStore {
     /// written.
     pub fn open(dir: &Path, fingerprint: &[(&str, &str)]) -> Result<Self, ResultsError> {
         fs::create_dir_all(dir).map_err(ResultsError::io("create the folder", dir))?;
+        let store = Self::join(dir, fingerprint, Access::Alone)?;
+        store.remove_files(|name| name.ends_with(ASIDE) && !name.ends_with(ASIDE_SHARED))?;
+        Ok(store)
+    }
+
+    /// Opens the folder `dir` as [`open`](Self::open) does, but together with others that do the same.
+    ///
+    /// Of several that open an absent folder at once, the first names the work; the others find it named,
+    /// and are refused if theirs is another. What a killed process leaves in the making stays until the
+    /// folder is removed.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open); [`ResultsError::PiecesInUse`] only if someone has it for himself.
+    pub fn open_shared(dir: &Path, fingerprint: &[(&str, &str)]) -> Result<Self, ResultsError> {
+        fs::create_dir_all(dir).map_err(ResultsError::io("create the folder", dir))?;
+        Self::join(dir, fingerprint, Access::Shared)
+    }
+
+    /// Opens the folder `dir`, which must be there, to put its pieces together. The work is that of
+    /// [`work_in`], after the caller has looked whether it is the right one.
+    ///
+    /// A piece is whole or absent, so this is right even where no lock tells that others still write: what
+    /// they have not finished is missing from the [`survey`](Self::survey). Files in the making stay.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open); [`ResultsError::PiecesInUse`] also while it is open as shared, where the
+    /// file system knows of that; [`ResultsError::AbsentPieces`] if `dir` has no manifest.
+    pub fn open_to_merge(dir: &Path, fingerprint: &[(&str, &str)]) -> Result<Self, ResultsError> {
+        read_manifest(dir)?;
+        Self::join(dir, fingerprint, Access::Alone)
+    }
+
+    fn join(dir: &Path, work: &[(&str, &str)], access: Access) -> Result<Self, ResultsError> {
         check_ours(dir)?;
         let store = Self {
             dir: dir.to_path_buf(),
-            fingerprint: crc(&[&text_of(fingerprint)]),
-            lock: lock(dir)?,
+            fingerprint: crc(&[&text_of(work)]),
+            access,
+            lock: lock(dir, access)?,
         };
-        store.remove_files(|name| name.ends_with(ASIDE))?;
-        store.check_manifest(fingerprint)?;
+        store.agree(work)?;
         Ok(store)
     }
 
@@ -156,7 +197,7 @@ impl PieceStore {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(ResultsError::io("read", &path)(error)),
         };
-        match self.problem(number, &bytes) {
+        match problem(self.fingerprint, number, &bytes) {
             None => Ok(Some(bytes.split_off(HEADER))),
             Some(problem) => Err(ResultsError::DamagedPiece { path, problem }),
         }
@@ -168,8 +209,8 @@ impl PieceStore {
     /// # Errors
     /// [`ResultsError::Io`] if not every byte could be written; then the folder is as it was.
     pub fn write(&self, number: u32, content: &[u8]) -> Result<(), ResultsError> {
-        let header = self.header(number, content);
-        self.place(&file_name(number), &[&header, content])
+        let header = header(self.fingerprint, number, content);
+        self.place(&file_name(number), &[&header, content], Place::Anew)
     }
 
     /// Removes the pieces, the manifest and the folder. Files of others stay, and then so does the folder.
@@ -188,68 +229,42 @@ impl PieceStore {
         Ok(())
     }
 
-    /// The 32 bytes before the content; see the module for their meaning.
-    fn header(&self, number: u32, content: &[u8]) -> Vec<u8> {
-        let mut header = Vec::with_capacity(HEADER);
-        header.extend(MAGIC);
-        for word in [FORMAT, self.fingerprint, number] {
-            header.extend(word.to_le_bytes());
-        }
-        header.extend(crc(&[&header, content]).to_le_bytes());
-        header.extend((content.len() as u64).to_le_bytes());
-        header
-    }
-
-    /// What is wrong with the file of piece `number`, if anything.
-    fn problem(&self, number: u32, bytes: &[u8]) -> Option<String> {
-        let Some((header, content)) = bytes.split_at_checked(HEADER) else {
-            return Some(format!("{} bytes, less than its header", bytes.len()));
-        };
-        let word = |at: usize| u32::from_le_bytes([0, 1, 2, 3].map(|i| header[at + i]));
-        let length = u64::from(word(24)) | u64::from(word(28)) << 32;
-        if !header.starts_with(MAGIC) {
-            Some("it does not begin as a piece does".to_owned())
-        } else if word(8) != FORMAT {
-            Some(format!("format {}, not {FORMAT}", word(8)))
-        } else if word(12) != self.fingerprint {
-            Some("it belongs to other work".to_owned())
-        } else if word(16) != number {
-            Some(format!("it is piece {}", word(16)))
-        } else if length != content.len() as u64 {
-            Some(format!("{} bytes of content, not {length}", content.len()))
-        } else if word(20) != crc(&[&header[..20], content]) {
-            Some("its checksum does not match".to_owned())
-        } else {
-            None
-        }
-    }
-
-    /// Compares the manifest with `fingerprint`, or writes it if there is none yet.
-    fn check_manifest(&self, fingerprint: &[(&str, &str)]) -> Result<(), ResultsError> {
+    /// Names the work in the manifest, unless that was done before, and compares what it says.
+    fn agree(&self, fingerprint: &[(&str, &str)]) -> Result<(), ResultsError> {
         let path = self.dir.join(MANIFEST);
-        match fs::read(&path) {
-            Ok(found) => compare(&found, fingerprint).map_err(|differences| {
-                let path = self.dir.clone();
-                ResultsError::ForeignPieces { path, differences }
-            }),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                self.place(MANIFEST, &[&text_of(fingerprint)])
-            }
-            Err(error) => Err(ResultsError::io("read", &path)(error)),
+        if !path.exists() {
+            self.place(MANIFEST, &[&text_of(fingerprint)], Place::First)?;
         }
+        // Read in any case: another may have been first.
+        let found = fs::read(&path).map_err(ResultsError::io("read", &path))?;
+        compare(&found, fingerprint).map_err(|differences| {
+            let path = self.dir.clone();
+            ResultsError::ForeignPieces { path, differences }
+        })
     }
 
     /// Writes the file `name` aside, brings it to the disk and renames it.
-    fn place(&self, name: &str, parts: &[&[u8]]) -> Result<(), ResultsError> {
+    fn place(&self, name: &str, parts: &[&[u8]], place: Place) -> Result<(), ResultsError> {
         let path = self.dir.join(name);
+        let suffix = match self.access {
+            Access::Alone => ASIDE,
+            Access::Shared => ASIDE_SHARED,
+        };
         let staged = tempfile::Builder::new()
-            .suffix(ASIDE)
+            .suffix(suffix)
             .tempfile_in(&self.dir);
         staged
             .and_then(|mut file| {
                 parts.iter().try_for_each(|part| file.write_all(part))?;
                 file.as_file().sync_all()?;
-                file.persist(&path).map_err(|error| error.error)?;
+                let placed = match place {
+                    Place::Anew => file.persist(&path),
+                    Place::First => file.persist_noclobber(&path),
+                };
+                match (place, placed.map_err(|error| error.error)) {
+                    (Place::First, Err(error)) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                    (_, placed) => drop(placed?),
+                }
                 sync_folder(&self.dir)
             })
             .map_err(ResultsError::io("write", &path))
@@ -264,6 +279,15 @@ impl PieceStore {
     }
 }
 
+/// What becomes of a file that has the name already.
+#[derive(Clone, Copy)]
+enum Place {
+    /// It is replaced.
+    Anew,
+    /// It stays: the first one counts.
+    First,
+}
+
 /// A name on the disk survives a power cut only if its folder was brought there too.
 #[cfg(unix)]
 fn sync_folder(dir: &Path) -> io::Result<()> {
@@ -276,40 +300,11 @@ fn sync_folder(_: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Takes the lock of the folder, which ends with the process that holds it, however that ends.
-fn lock(dir: &Path) -> Result<File, ResultsError> {
-    let path = dir.join(LOCK);
-    let mut file = File::options()
-        .read(true)
-        .write(true)
-        .create(true)
-        .truncate(false)
-        .open(&path)
-        .map_err(ResultsError::io("open", &path))?;
-    match file.try_lock() {
-        Ok(()) => {}
-        Err(TryLockError::WouldBlock) => {
-            let mut text = String::new();
-            let read = file.read_to_string(&mut text);
-            return Err(ResultsError::PiecesInUse {
-                path: dir.to_path_buf(),
-                process: read.ok().and_then(|_| text.trim().parse().ok()),
-            });
-        }
-        Err(TryLockError::Error(error)) => return Err(ResultsError::io("lock", &path)(error)),
-    }
-    file.set_len(0)
-        .and_then(|()| file.seek(SeekFrom::Start(0)))
-        .and_then(|_| writeln!(file, "{}", std::process::id()))
-        .map_err(ResultsError::io("write", &path))?;
-    Ok(file)
-}
-
 /// An empty folder may become one of pieces; one with other files and no manifest may not.
 fn check_ours(dir: &Path) -> Result<(), ResultsError> {
-    let names = names(dir)?;
     let foreign = |name: &String| name != LOCK && !name.ends_with(ASIDE);
-    if names.iter().any(foreign) && !names.iter().any(|name| name == MANIFEST) {
+    // Looked for last: by then whoever put a piece into the list has put the manifest before it.
+    if names(dir)?.iter().any(foreign) && !dir.join(MANIFEST).exists() {
         return Err(ResultsError::NoPieces {
             path: dir.to_path_buf(),
             manifest: MANIFEST,
@@ -337,66 +332,4 @@ fn number_of(name: &str) -> Option<u32> {
     let digits = name.strip_prefix("piece-")?.strip_suffix(".bin")?;
     let number = digits.parse().ok()?;
     (file_name(number) == name).then_some(number)
-}
-
-/// CRC-32 of the parts, one after the other.
-fn crc(parts: &[&[u8]]) -> u32 {
-    let mut hasher = crc32fast::Hasher::new();
-    parts.iter().for_each(|part| hasher.update(part));
-    hasher.finalize()
-}
-
-/// The manifest: format and fingerprint as JSON, in the order given.
-fn text_of(fingerprint: &[(&str, &str)]) -> Vec<u8> {
-    let fingerprint: Vec<_> = fingerprint
-        .iter()
-        .map(|(name, value)| serde_json::json!({ "name": name, "value": value }))
-        .collect();
-    let manifest = serde_json::json!({
-        "format": "saltus-pieces",
-        "format_version": FORMAT,
-        "fingerprint": fingerprint,
-    });
-    format!("{manifest:#}\n").into_bytes()
-}
-
-/// In words, what differs between a manifest and the fingerprint that is wanted.
-fn compare(manifest: &[u8], wanted: &[(&str, &str)]) -> Result<(), String> {
-    let found: serde_json::Value = serde_json::from_slice(manifest)
-        .map_err(|error| format!("`{MANIFEST}` cannot be read ({error})"))?;
-    if found["format_version"] != FORMAT {
-        let version = &found["format_version"];
-        return Err(format!("their format is {version}, not {FORMAT}"));
-    }
-    let entries = found["fingerprint"]
-        .as_array()
-        .map_or(&[][..], Vec::as_slice);
-    let theirs: Vec<(&str, &str)> = entries
-        .iter()
-        .filter_map(|entry| Some((entry["name"].as_str()?, entry["value"].as_str()?)))
-        .collect();
-    let value = |list: &[(&str, &str)], name: &str| {
-        let entry = list.iter().find(|entry| entry.0 == name);
-        entry.map_or("absent".to_owned(), |entry| format!("`{}`", entry.1))
-    };
-    let mut names: Vec<&str> = wanted.iter().map(|entry| entry.0).collect();
-    names.extend(
-        theirs
-            .iter()
-            .map(|entry| entry.0)
-            .filter(|&name| wanted.iter().all(|w| w.0 != name)),
-    );
-    let differences: Vec<String> = names
-        .into_iter()
-        .map(|name| (name, value(&theirs, name), value(wanted, name)))
-        .filter(|(_, theirs, wanted)| theirs != wanted)
-        .map(|(name, theirs, wanted)| format!("{name} is {theirs} there and {wanted} here"))
-        .collect();
-    if !differences.is_empty() {
-        Err(differences.join(", "))
-    } else if theirs != wanted {
-        Err("the entries of its fingerprint are the same in another order".to_owned())
-    } else {
-        Ok(())
-    }
 }

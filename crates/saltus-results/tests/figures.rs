@@ -250,12 +250,17 @@ fn svg_and_png_have_one_size_and_odd_scales_are_refused() {
     }
 }
 
-/// Columns and rows of the embedded image of a map, reduced to one pixel for each of `cells`.
-fn embedded(svg: &str, cells: (usize, usize)) -> Vec<Colour> {
+/// The embedded image of a map, as [`pixels`].
+fn image(svg: &str) -> (u32, u32, Vec<u8>) {
     let data = svg.split("data:image/png;base64,").nth(1).unwrap();
     let data = data.split('"').next().unwrap();
     let png = base64::Engine::decode(&base64::engine::general_purpose::STANDARD, data).unwrap();
-    let (width, height, pixels) = pixels(&png);
+    pixels(&png)
+}
+
+/// Columns and rows of the embedded image of a map, reduced to one pixel for each of `cells`.
+fn embedded(svg: &str, cells: (usize, usize)) -> Vec<Colour> {
+    let (width, height, pixels) = image(svg);
     let (across, down) = (width as usize / cells.0, height as usize / cells.1);
     assert_eq!(
         (across * cells.0, down * cells.1),
@@ -299,6 +304,38 @@ fn cells_lie_where_their_values_are() {
         embedded(&figure([2.0, 1.0, 0.0], [1.0, 0.0]), (3, 2)),
         turned
     );
+}
+
+#[test]
+fn cells_of_unequal_values_end_halfway_between_them() {
+    let [one, two] = two_classes().map(|class| class.colour);
+    // Columns end at -0.5, 0.5, 2, 5 and 9, rows at -0.5, 0.5, 2.5 and 5.5.
+    let (x, y) = ([0.0, 1.0, 3.0, 7.0], [0.0, 1.0, 4.0]);
+    let mut cells = [0; 12];
+    cells[11] = 1;
+    let grid = Grid::new(Axis::new("x"), x, Axis::new("y"), y);
+    let figure = Figure::new(ClassMap::new("t", grid, cells, two_classes()));
+    let (width, height, pixels) = image(&figure.svg());
+    let (width, height) = (f64::from(width), f64::from(height));
+    let colour = |x: f64, y: f64| {
+        let (column, row) = (width * (x + 0.5) / 9.5, height * (5.5 - y) / 6.0);
+        let at = 3 * (row as usize * width as usize + column as usize);
+        Colour(pixels[at], pixels[at + 1], pixels[at + 2])
+    };
+    // Four pixels per unit of the sheet: a hundredth of a cell is more than a pixel.
+    let (x, y) = ((5.0, 9.0), (2.5, 5.5));
+    for near in [x.0 + 0.04, 7.0, x.1 - 0.04] {
+        assert_eq!(
+            (colour(near, y.0 + 0.04), colour(near, y.0 - 0.04)),
+            (two, one)
+        );
+    }
+    for near in [y.0 + 0.04, 4.0, y.1 - 0.04] {
+        assert_eq!(
+            (colour(x.0 + 0.04, near), colour(x.0 - 0.04, near)),
+            (two, one)
+        );
+    }
 }
 
 #[test]

@@ -1,10 +1,12 @@
-//! Pieces are whole or reported, belong to one work, and to one process at a time.
+//! Pieces are whole or reported, belong to one work, and to one process at a time or to all that share.
 #![allow(clippy::unwrap_used)]
 
-use saltus_results::pieces::{MANIFEST, pieces_beside};
+use saltus_results::pieces::{MANIFEST, pieces_beside, work_in};
 use saltus_results::{PieceStore, ResultsError};
 use std::fs;
 use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::sync::Barrier;
 
 const WORK: [(&str, &str); 2] = [("study", "5f3a9c"), ("version", "0.1.0")];
 
@@ -235,4 +237,192 @@ fn the_pieces_of_a_result_lie_beside_it() {
     // Not inside the folder, where it would be a foreign file.
     let here = std::env::current_dir().unwrap();
     assert_eq!(pieces_beside(Path::new(".")), pieces_beside(&here));
+}
+
+/// The folder and the work of a process that [`shard`] is; without them the test has nothing to do.
+const DIR: &str = "SALTUS_TEST_PIECES";
+const STUDY: &str = "SALTUS_TEST_STUDY";
+
+/// A process that opens the folder as shared once its input is closed, and writes 40 pieces.
+fn start(dir: &Path, study: &str) -> Child {
+    Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", "shard", "--ignored"])
+        .env(DIR, dir)
+        .env(STUDY, study)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap()
+}
+
+#[test]
+#[ignore = "is a process that other tests start"]
+fn shard() {
+    let (Ok(dir), Ok(study)) = (std::env::var(DIR), std::env::var(STUDY)) else {
+        return;
+    };
+    std::io::copy(&mut std::io::stdin(), &mut std::io::sink()).unwrap();
+    let store = PieceStore::open_shared(Path::new(&dir), &[("study", &study)]).unwrap();
+    for number in 0..40 {
+        store.write(number, &content(number)).unwrap();
+    }
+}
+
+/// Long enough that writing takes a while.
+fn content(number: u32) -> Vec<u8> {
+    number.to_le_bytes().repeat(20_000)
+}
+
+/// Whether each process did its work, all having begun at once.
+fn race(dir: &Path, studies: &[&str]) -> Vec<bool> {
+    let mut processes: Vec<Child> = studies.iter().map(|study| start(dir, study)).collect();
+    // All have begun before the first may go on.
+    processes
+        .iter_mut()
+        .for_each(|process| drop(process.stdin.take()));
+    let done = |process: &mut Child| process.wait().unwrap().success();
+    processes.iter_mut().map(done).collect()
+}
+
+#[test]
+fn processes_that_share_a_folder_write_the_same_pieces_without_harm() {
+    let home = tempfile::tempdir().unwrap();
+    let dir = home.path().join("deep/pieces");
+    assert_eq!(race(&dir, &["a"; 6]), [true; 6]);
+    let work = [("study".to_owned(), "a".to_owned())];
+    assert_eq!(work_in(&dir).unwrap(), work);
+    let store = PieceStore::open_to_merge(&dir, &[("study", "a")]).unwrap();
+    let survey = store.survey().unwrap();
+    assert_eq!(survey.whole, (0..40).collect::<Vec<_>>());
+    assert!(survey.damaged.is_empty());
+    for number in 0..40 {
+        assert_eq!(store.read(number).unwrap().unwrap(), content(number));
+    }
+    assert!(!names(&dir).iter().any(|name| name.ends_with(".part")));
+    store.remove().unwrap();
+    assert!(!dir.exists());
+}
+
+#[test]
+fn of_processes_with_different_work_one_kind_wins_whole() {
+    for _ in 0..5 {
+        let home = tempfile::tempdir().unwrap();
+        let dir = home.path().join("pieces");
+        let studies = ["a", "b", "a", "b"];
+        let done = race(&dir, &studies);
+        let winner = work_in(&dir).unwrap()[0].1.clone();
+        let expected: Vec<bool> = studies.iter().map(|study| *study == winner).collect();
+        assert_eq!(done, expected);
+        let store = PieceStore::open_to_merge(&dir, &[("study", &winner)]).unwrap();
+        let survey = store.survey().unwrap();
+        assert_eq!((survey.whole.len(), survey.damaged.len()), (40, 0));
+    }
+}
+
+#[test]
+fn threads_that_open_an_absent_folder_at_once_agree_on_its_work() {
+    for _ in 0..50 {
+        let home = tempfile::tempdir().unwrap();
+        let dir = home.path().join("pieces");
+        let barrier = Barrier::new(8);
+        let opened: Vec<Option<usize>> = std::thread::scope(|scope| {
+            let open = |thread: usize| {
+                let (barrier, dir) = (&barrier, &dir);
+                scope.spawn(move || {
+                    let study = (thread % 2).to_string();
+                    barrier.wait();
+                    match PieceStore::open_shared(dir, &[("study", &study)]) {
+                        Ok(_) => Some(thread % 2),
+                        Err(ResultsError::ForeignPieces { .. }) => None,
+                        Err(error) => panic!("{error}"),
+                    }
+                })
+            };
+            let threads: Vec<_> = (0..8).map(open).collect();
+            threads
+                .into_iter()
+                .map(|thread| thread.join().unwrap())
+                .collect()
+        });
+        let winner: usize = work_in(&dir).unwrap()[0].1.parse().unwrap();
+        let expected: Vec<_> = (0..8)
+            .map(|thread| Some(thread % 2).filter(|&t| t == winner))
+            .collect();
+        assert_eq!(opened, expected);
+    }
+}
+
+#[test]
+fn who_shares_keeps_out_who_wants_it_alone_and_the_other_way_round() {
+    let home = tempfile::tempdir().unwrap();
+    let dir = home.path();
+    let one = PieceStore::open_shared(dir, &WORK).unwrap();
+    let two = PieceStore::open_shared(dir, &WORK).unwrap();
+    two.write(0, b"x").unwrap();
+    for refused in [
+        PieceStore::open(dir, &WORK),
+        PieceStore::open_to_merge(dir, &WORK),
+    ] {
+        let error = refused.unwrap_err();
+        // Nobody in particular.
+        assert!(
+            matches!(error, ResultsError::PiecesInUse { process: None, .. }),
+            "{error}"
+        );
+    }
+    drop((one, two));
+    let alone = PieceStore::open_to_merge(dir, &WORK).unwrap();
+    let error = PieceStore::open_shared(dir, &WORK).unwrap_err();
+    assert!(matches!(error, ResultsError::PiecesInUse { .. }), "{error}");
+    assert_eq!(alone.survey().unwrap().whole, [0]);
+}
+
+/// As on a file system that keeps locks to one machine: each is there and the others do not see it.
+#[test]
+fn without_locks_nobody_tidies_away_what_others_are_writing() {
+    let home = tempfile::tempdir().unwrap();
+    let dir = home.path();
+    let shared = PieceStore::open_shared(dir, &WORK).unwrap();
+    std::thread::scope(|scope| {
+        let writer = scope.spawn(|| {
+            for number in 0..20 {
+                shared.write(number, &content(number)).unwrap();
+            }
+        });
+        while !writer.is_finished() {
+            fs::remove_file(dir.join("lock")).unwrap();
+            drop(PieceStore::open(dir, &WORK).unwrap());
+        }
+    });
+    let survey = shared.survey().unwrap();
+    assert_eq!((survey.whole.len(), survey.damaged.len()), (20, 0));
+    fs::write(dir.join(".tmpAbc123.shared.part"), "of a killed process").unwrap();
+    shared.remove().unwrap();
+    assert!(!dir.exists());
+}
+
+#[test]
+fn there_is_nothing_to_merge_where_there_are_no_pieces() {
+    let home = tempfile::tempdir().unwrap();
+    for dir in [home.path().join("nowhere"), home.path().to_path_buf()] {
+        let error = PieceStore::open_to_merge(&dir, &WORK).unwrap_err();
+        assert!(
+            matches!(error, ResultsError::AbsentPieces { .. }),
+            "{error}"
+        );
+        assert!(
+            work_in(&dir)
+                .unwrap_err()
+                .to_string()
+                .contains("there are no pieces in")
+        );
+    }
+    assert_eq!(names(home.path()), Vec::<String>::new());
+    four(home.path());
+    let error = PieceStore::open_to_merge(home.path(), &[("study", "other")]).unwrap_err();
+    assert!(
+        matches!(error, ResultsError::ForeignPieces { .. }),
+        "{error}"
+    );
 }

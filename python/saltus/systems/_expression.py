@@ -56,43 +56,43 @@ class Expression:
 
     def __add__(self, other: ExpressionLike) -> Expression:
         """Sum."""
-        return _binary("add", self, other)
+        return _binary("add", self, other)  # type: ignore[no-any-return]
 
     def __radd__(self, other: ExpressionLike) -> Expression:
         """Sum."""
-        return _binary("add", other, self)
+        return _binary("add", other, self)  # type: ignore[no-any-return]
 
     def __sub__(self, other: ExpressionLike) -> Expression:
         """Difference."""
-        return _binary("subtract", self, other)
+        return _binary("subtract", self, other)  # type: ignore[no-any-return]
 
     def __rsub__(self, other: ExpressionLike) -> Expression:
         """Difference."""
-        return _binary("subtract", other, self)
+        return _binary("subtract", other, self)  # type: ignore[no-any-return]
 
     def __mul__(self, other: ExpressionLike) -> Expression:
         """Product."""
-        return _binary("multiply", self, other)
+        return _binary("multiply", self, other)  # type: ignore[no-any-return]
 
     def __rmul__(self, other: ExpressionLike) -> Expression:
         """Product."""
-        return _binary("multiply", other, self)
+        return _binary("multiply", other, self)  # type: ignore[no-any-return]
 
     def __truediv__(self, other: ExpressionLike) -> Expression:
         """Quotient; the divisor must not change with time."""
-        return _binary("divide", self, other)
+        return _binary("divide", self, other)  # type: ignore[no-any-return]
 
     def __rtruediv__(self, other: ExpressionLike) -> Expression:
         """Quotient; the divisor must not change with time."""
-        return _binary("divide", other, self)
+        return _binary("divide", other, self)  # type: ignore[no-any-return]
 
     def __pow__(self, other: ExpressionLike) -> Expression:
         """Power; of what changes with time, a whole one from 0 to 64."""
-        return _binary("power", self, other)
+        return _binary("power", self, other)  # type: ignore[no-any-return]
 
     def __rpow__(self, other: ExpressionLike) -> Expression:
         """Power of a number."""
-        return _binary("power", other, self)
+        return _binary("power", other, self)  # type: ignore[no-any-return]
 
     def __neg__(self) -> Expression:
         """Negative."""
@@ -153,7 +153,7 @@ class Expression:
 
 
 #: What may stand in a formula.
-ExpressionLike: TypeAlias = Expression | Real | float
+ExpressionLike: TypeAlias = Expression | float | np.floating[Any] | np.integer[Any]
 
 
 def states(*names: str) -> tuple[Expression, ...]:
@@ -231,7 +231,7 @@ def expression(value: ExpressionLike) -> Expression:
     return Expression("number", tag=number, changes=False)
 
 
-def _binary(operation: str, first: ExpressionLike, second: ExpressionLike) -> Expression:
+def _binary(operation: str, first: ExpressionLike, second: ExpressionLike) -> Any:
     for operand in (first, second):
         if not isinstance(operand, Expression | Real):
             # Arrays go on with each of their entries; everything else is a TypeError.

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -199,7 +200,7 @@ class Members:
         system: System,
         starts: ArrayLike,
         modes: ArrayLike | None,
-        parameters: Mapping[str, ArrayLike] | None,
+        parameters: Mapping[str, Any] | None,
     ) -> Members:
         """Check and broadcast."""
         given = dict(parameters or {})
@@ -210,22 +211,20 @@ class Members:
             )
         counts = tuple(len(names) for names in system.modes)
         x = reals("starts", starts, (len(system.states),))
-        m = modes_array(
-            "modes", np.zeros(len(counts), np.uint8) if modes is None else modes, counts
-        )
+        m = modes_array("modes", np.zeros(len(counts), np.uint8) if modes is None else modes, counts)
         values = {name: reals(name, given[name], shape) for name, shape in shapes.items()}
         leads = {name: _lead(value.shape, len(shapes[name])) for name, value in values.items()}
         leads = {"starts": x.shape[:-1], "modes": m.shape[:-1], **leads}
         shape = _broadcast(leads)
-        count = int(np.prod(shape, dtype=np.int64))
+        count = math.prod(shape)
         columns = [
-            np.broadcast_to(value, shape + shapes[name]).reshape(count, -1)
+            np.broadcast_to(value, shape + shapes[name]).reshape(count, math.prod(shapes[name]))
             for name, value in values.items()
         ]
         return cls(
             shape=shape,
             starts=np.ascontiguousarray(
-                np.broadcast_to(x, shape + x.shape[-1:]).reshape(count, -1)
+                np.broadcast_to(x, shape + x.shape[-1:]).reshape(count, x.shape[-1])
             ),
             modes=np.ascontiguousarray(
                 np.broadcast_to(m, shape + m.shape[-1:]).reshape(count, len(counts))
@@ -239,7 +238,7 @@ def integrate(
     starts: ArrayLike,
     periods: int,
     *,
-    parameters: Mapping[str, ArrayLike] | None = None,
+    parameters: Mapping[str, Any] | None = None,
     modes: ArrayLike | None = None,
     transient: int = 0,
     samples_per_period: int = 1,

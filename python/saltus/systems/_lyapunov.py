@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -54,7 +54,7 @@ def lyapunov(
     *,
     count: int | None = None,
     transient: int = 100,
-    parameters: Mapping[str, ArrayLike] | None = None,
+    parameters: Mapping[str, Any] | None = None,
     modes: ArrayLike | None = None,
     method: Taylor = Taylor(),  # noqa: B008 (it is frozen)
     max_switches: int = 100,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -69,7 +69,7 @@ def find_orbit(
     start: ArrayLike,
     *,
     period: int | None = None,
-    parameters: Mapping[str, ArrayLike] | None = None,
+    parameters: Mapping[str, Any] | None = None,
     modes: ArrayLike | None = None,
     tolerance: float = 1e-11,
     iterations: int = 18,

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
+from saltus._arguments import whole
 from saltus._errors import DefinitionError
 from saltus.systems._expression import Expression, ExpressionLike, expression
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 __all__ = ["Forcing", "Pairs", "Transition", "Unit", "pairs"]
 
@@ -107,7 +105,7 @@ class Unit:
             raise DefinitionError(
                 f"formulas for {sorted(all_modes)}: one is needed for each of {list(self.modes)}"
             )
-        parts = np.broadcast_arrays(*(_objects(all_modes[mode]) for mode in self.modes))
+        parts: Any = np.broadcast_arrays(*(_objects(all_modes[mode]) for mode in self.modes))
         out = np.empty(parts[0].shape, dtype=object)
         for index in np.ndindex(out.shape):
             of = tuple(expression(part[index]) for part in parts)
@@ -159,7 +157,10 @@ class Unit:
             guard=guard,
             direction="falling" if falling is not None else "rising",
             resets=tuple((state, expression(value)) for state, value in pairs("reset", reset)),
-            vanishing=tuple((one, int(count)) for one, count in pairs("vanishing", vanishing)),
+            vanishing=tuple(
+                (one, whole("a multiplicity", count, 1, 255))
+                for one, count in pairs("vanishing", vanishing)
+            ),
         )
 
 
@@ -187,5 +188,5 @@ def pairs(name: str, given: Pairs) -> list[tuple[Expression, Any]]:
     return out
 
 
-def _objects(value: Any) -> NDArray[np.object_]:
+def _objects(value: Any) -> Any:
     return np.asarray(value, dtype=object)

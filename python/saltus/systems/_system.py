@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -40,7 +41,7 @@ class Definition:
         """The same as a program of the engine."""
         return _native.Program(
             operations=self.operations,
-            parameters=sum(int(np.prod(shape)) for shape in self.parameters.values()),
+            parameters=sum(math.prod(shape) for shape in self.parameters.values()),
             rates=self.rates,
             forced=self.forced,
             clock=self.clock,
@@ -162,9 +163,7 @@ def _define(
     if len(flow) != len(own):
         raise DefinitionError(f"{len(own)} states and {len(flow)} rates: each state needs one rate")
     if (forcing is None) == (interval is None):
-        raise DefinitionError(
-            "a system is sampled by its forcing or at an interval: give one of them"
-        )
+        raise DefinitionError("a system is sampled by its forcing or at an interval: give one of them")
     clock = forcing.frequency if forcing is not None else expression(interval)  # type: ignore[arg-type]
     listing = _Listing(own, forcing, transitions)
     return Definition(
@@ -206,7 +205,7 @@ class _Listing:
         self._places: dict[Expression, int] = {}
 
     def place(self, root: Expression) -> int:
-        """Where an expression is on the list; it is put there if need be, after what it is made of."""
+        """The place of an expression on the list, where it is put after what it is made of."""
         waiting = [root]
         while waiting:
             part = waiting[-1]
@@ -248,7 +247,7 @@ class _Listing:
         if known != shape:
             raise DefinitionError(f"the parameter {name} has the shapes {known} and {shape}")
         if name not in self._first_of:
-            others = [math_prod(one) for key, one in self.parameters.items() if key != name]
+            others = [math.prod(one) for key, one in self.parameters.items() if key != name]
             self._first_of[name] = sum(others)
         return self._first_of[name] + place
 
@@ -266,8 +265,3 @@ class _Listing:
             tuple(tuple(leaves.get((unit, mode), ())) for mode in unit.modes)
             for unit in self.known_units
         )
-
-
-def math_prod(shape: tuple[int, ...]) -> int:
-    """How many entries an array of this shape has."""
-    return int(np.prod(shape, dtype=np.int64))

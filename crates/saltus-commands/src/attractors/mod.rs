@@ -1,5 +1,6 @@
 //! `saltus attractors`: all coexisting attractors, in one place or matched along a parameter.
 
+mod dataset;
 mod figures;
 mod report;
 mod section;
@@ -171,6 +172,7 @@ impl Answer for Run {
     fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
         let report = Report::new(self);
         tables::write(store, self, &report)?;
+        store.dataset("attractors.nc", dataset::dataset(self, &report))?;
         store.figure("attractors", &figures::attractors(self, &report))
     }
 }

@@ -1,6 +1,7 @@
 //! `saltus continue`: branches of periodic orbits over a parameter, and curves of their special points over two.
 
 mod curves;
+mod dataset;
 mod diagram;
 mod figures;
 mod origin;
@@ -177,6 +178,7 @@ impl Answer for Run {
     fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
         let report = Report::new(self);
         tables::write(store, self, &report)?;
+        store.dataset("continue.nc", dataset::dataset(self, &report))?;
         figures::write(store, self)
     }
 }

@@ -1,5 +1,6 @@
 //! `saltus lyapunov`: how fast neighbours of the long-term motion part.
 
+mod dataset;
 mod figures;
 mod report;
 mod summary;
@@ -135,6 +136,8 @@ impl Answer for Run {
     fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
         let convergence = self.growth.spectrum.convergence();
         tables::write(store, self, &convergence)?;
+        let report = Report::new(self);
+        store.dataset("lyapunov.nc", dataset::dataset(self, &report, &convergence))?;
         store.figure("convergence", &figures::convergence(self, &convergence))
     }
 

@@ -1,5 +1,6 @@
 //! `saltus orbit`: the periodic orbit near the long-term motion.
 
+mod dataset;
 mod figures;
 mod report;
 mod summary;
@@ -68,6 +69,7 @@ impl Answer for Run {
     fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
         let report = Report::new(self);
         tables::write(store, self, &report)?;
+        store.dataset("orbit.nc", dataset::dataset(self, &report))?;
         figures::write(store, self)
     }
 }

@@ -1,8 +1,8 @@
 //! The plane as a dataset for xarray and its like.
 
-use super::{Layers, Plane, PlaneAxis, Status};
+use super::{Layers, Plane, Status};
+use crate::dataset::{about, coordinate};
 use crate::per_jumper::column;
-use crate::words::capitalized;
 use saltus_config::Study;
 use saltus_results::{Dataset, Variable};
 
@@ -13,11 +13,9 @@ pub(crate) fn dataset(title: &str, study: &Study, plane: &Plane, layers: Layers)
     let jumpers = study.jumper.len();
     let status: Vec<u8> = layers.status.iter().map(|&status| status as u8).collect();
     let meanings = Status::ALL.map(|status| (status as i32, status.name().replace('-', "_")));
-    let mut dataset = Dataset::new(title)
-        .attribute("source", format!("saltus {}", env!("CARGO_PKG_VERSION")))
-        .attribute("study", study.to_toml())
-        .coordinate(coordinate(&plane.y, &plane.grid.y))
-        .coordinate(coordinate(&plane.x, &plane.grid.x))
+    let mut dataset = about(title, study)
+        .coordinate(coordinate(&plane.y.parameter, &plane.grid.y))
+        .coordinate(coordinate(&plane.x.parameter, &plane.grid.x))
         .variable(
             Variable::new("period", &over, layers.period)
                 .long_name(
@@ -82,50 +80,4 @@ pub(crate) fn dataset(title: &str, study: &Study, plane: &Plane, layers: Layers)
             .long_name("Forcing periods computed")
             .units("1"),
     )
-}
-
-fn coordinate(axis: &PlaneAxis, values: &[f64]) -> Variable {
-    let label = axis.parameter.label();
-    let unit = format!(" ({})", axis.parameter.unit());
-    let name = label.strip_suffix(&unit).unwrap_or(&label);
-    Variable::coordinate(axis.variable(), values.to_vec())
-        .long_name(capitalized(name))
-        .units(units(axis.parameter.unit()))
-        .attribute("study_key", axis.parameter.key())
-}
-
-/// A unit as UDUNITS spells it.
-fn units(unit: &str) -> String {
-    match unit {
-        "-" => "1".to_owned(),
-        other => other
-            .replace('²', "2")
-            .replace('³', "3")
-            .split_once('/')
-            .map_or(other.to_owned(), |(above, below)| {
-                let digits = below.trim_start_matches(char::is_alphabetic);
-                let power = if digits.is_empty() { "1" } else { digits };
-                let name = below.trim_end_matches(char::is_numeric);
-                format!("{above} {name}-{power}")
-            }),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::units;
-
-    #[test]
-    fn units_are_spelt_for_udunits() {
-        for (ours, theirs) in [
-            ("-", "1"),
-            ("m", "m"),
-            ("Hz", "Hz"),
-            ("N/m", "N m-1"),
-            ("kg/m³", "kg m-3"),
-            ("m/s²", "m s-2"),
-        ] {
-            assert_eq!(units(ours), theirs);
-        }
-    }
 }

@@ -1,6 +1,7 @@
 //! `saltus reproduce`: the paper, figure by figure, with our numbers beside its words.
 
 mod branches;
+mod dataset;
 mod figures;
 mod page;
 mod report;

@@ -5,7 +5,7 @@ use saltus::study::paper::Verdict;
 use saltus_results::{Fact, Figure, FigureBlock, Image, Page, Verdict as Badge};
 
 use super::report::{RegimeRow, Report};
-use super::{Results, branches, figures, tables};
+use super::{Results, branches, dataset, figures, tables};
 use crate::failure::Failure;
 use crate::store::Store;
 
@@ -16,6 +16,7 @@ pub(super) fn write(
     report: &Report,
 ) -> Result<(), Failure> {
     tables::write(folder, results, report)?;
+    folder.dataset("fig2.nc", dataset::fig2(results)?)?;
     folder.text("facts.md", &report.markdown())?;
     let mut album = Album {
         folder,
@@ -121,6 +122,7 @@ fn fig2(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
         ("a", "fig2a.csv"),
         ("b", "fig2b.csv"),
         ("c", "fig2c.csv"),
+        ("NetCDF", "fig2.nc"),
         ("regimes", "regimes.csv"),
     ];
     album.show("fig2", &figures::fig2(results, Occupied), &caption, &data)

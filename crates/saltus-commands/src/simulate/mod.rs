@@ -1,5 +1,6 @@
 //! `saltus simulate`: the motion, once per forcing period.
 
+mod dataset;
 mod figures;
 mod flights;
 mod report;
@@ -65,6 +66,7 @@ impl Answer for Run {
     fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
         let report = Report::new(self);
         tables::write(store, self, &report)?;
+        store.dataset("simulate.nc", dataset::dataset(self, &report))?;
         figures::write(store, self)
     }
 

@@ -1,5 +1,6 @@
 //! `saltus sweep`: long-term motion while one parameter changes.
 
+mod dataset;
 mod figures;
 mod report;
 mod summary;
@@ -206,6 +207,7 @@ impl Answer for Run {
     fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
         let report = Report::new(self);
         tables::write(store, self, &report)?;
+        store.dataset("sweep.nc", dataset::dataset(self, &report))?;
         store.figure("bifurcation", &figures::bifurcation(self))?;
         if self.table.exponents > 0 {
             store.figure("exponents", &figures::exponents(self, &report))?;

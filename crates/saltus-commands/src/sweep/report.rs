@@ -127,7 +127,7 @@ fn period(kind: Kind) -> Option<u32> {
 }
 
 /// Word for a pass.
-fn direction(pass: &Pass) -> &'static str {
+pub(super) fn direction(pass: &Pass) -> &'static str {
     match pass {
         Pass::Up => "up",
         Pass::Down => "down",
@@ -136,7 +136,7 @@ fn direction(pass: &Pass) -> &'static str {
 }
 
 /// The state a pass begins with: z/eta and z'/(eta omega_h).
-fn start(run: &Run, pass: &Pass) -> [f64; 2] {
+pub(super) fn start(run: &Run, pass: &Pass) -> [f64; 2] {
     match *pass {
         Pass::Start { z, v } => [z, v],
         Pass::Up | Pass::Down => run.sweep.start.into(),

@@ -28,11 +28,6 @@ pub(crate) enum Step {
         by_mode: Vec<Coefficient>,
         terms: Terms,
     },
-    Matrix {
-        outs: Vec<usize>,
-        nodes: Vec<Value>,
-        rows: Vec<Vec<Coefficient>>,
-    },
     Squares(Vec<(usize, Value)>),
     Products(Vec<(usize, Value, Value)>),
 }
@@ -154,7 +149,6 @@ impl Blueprint {
                     constant, terms, ..
                 } => of(terms).into_iter().chain(*constant).collect(),
                 Step::Gate { by_mode, terms, .. } => [of(terms), by_mode.clone()].concat(),
-                Step::Matrix { rows, .. } => rows.concat(),
                 Step::Squares(_) | Step::Products(_) => Vec::new(),
             }
         })
@@ -194,12 +188,6 @@ impl Nodes {
             } => {
                 let by_mode: Vec<f64> = by_mode.iter().map(|&c| values.of(c)).collect();
                 self.0[*out] = b.gated_linear(units[*unit], &by_mode, &sum(self, terms));
-            }
-            Step::Matrix { outs, nodes, rows } => {
-                let nodes: Vec<Node> = nodes.iter().map(|&value| self.of(value)).collect();
-                let row = |row: &Vec<Coefficient>| row.iter().map(|&c| values.of(c)).collect();
-                let rows: Vec<Vec<f64>> = rows.iter().map(row).collect();
-                self.put(outs.iter().copied(), b.matrix(&nodes, &rows));
             }
             Step::Squares(list) => {
                 let of: Vec<Node> = list.iter().map(|&(_, value)| self.of(value)).collect();

@@ -224,10 +224,12 @@ impl Member<'_> {
 
 impl Task for Member<'_> {
     fn begin(&mut self) -> Option<Leg> {
-        let system = self
-            .blueprint
-            .system(self.members.parameters.row(self.index));
-        let system = system.ok()?.sharing(self.first);
+        let parameters = self.members.parameters.row(self.index);
+        let system = if parameters.is_empty() {
+            self.first.clone()
+        } else {
+            self.blueprint.system(parameters).ok()?.sharing(self.first)
+        };
         self.period = system.period();
         let modes = self.members.modes.row(self.index);
         Some(Leg {

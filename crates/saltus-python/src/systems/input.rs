@@ -32,21 +32,20 @@ impl Definition {
     }
 }
 
-/// A transition: guard, sign, mode that follows, resets, guards that vanish.
-type Tuple = (usize, f64, usize, Vec<(usize, usize)>, Vec<(usize, u8)>);
+impl<'a, 'py> FromPyObject<'a, 'py> for Leave<usize> {
+    type Error = PyErr;
 
-/// From the transitions of each mode of each unit.
-pub(crate) fn units(units: Vec<Vec<Vec<Tuple>>>) -> Vec<Vec<Vec<Leave<usize>>>> {
-    let leave = |(guard, sign, to, resets, vanishing): Tuple| Leave {
-        guard,
-        sign,
-        to,
-        resets,
-        vanishing,
-    };
-    let mode = |all: Vec<Tuple>| all.into_iter().map(leave).collect();
-    let unit = |modes: Vec<Vec<Tuple>>| modes.into_iter().map(mode).collect();
-    units.into_iter().map(unit).collect()
+    /// From (guard, sign, mode that follows, resets, guards that vanish).
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        let (guard, sign, to, resets, vanishing) = object.extract()?;
+        Ok(Self {
+            guard,
+            sign,
+            to,
+            resets,
+            vanishing,
+        })
+    }
 }
 
 /// `saltus.systems.Taylor` or `saltus.systems.RungeKutta4`.

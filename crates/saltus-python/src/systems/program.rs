@@ -3,11 +3,11 @@
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 
-use super::blueprint::{Blueprint, Clock};
+use super::blueprint::{Blueprint, Clock, Leave};
 use super::ensemble::{self, Plan, Trajectories};
 use super::exponents::{self, Exponents};
 use super::formula::Op;
-use super::input::{Definition, Settings, units};
+use super::input::{Definition, Settings};
 use super::lower::lower;
 use super::orbit::{self, Orbit, Search};
 use crate::error::of_definition;
@@ -103,7 +103,7 @@ impl Program {
         rates: Vec<usize>,
         forced: bool,
         clock: usize,
-        units: Vec<Vec<Vec<(usize, f64, usize, Vec<(usize, usize)>, Vec<(usize, u8)>)>>>,
+        units: Vec<Vec<Vec<Leave<usize>>>>,
     ) -> PyResult<Self> {
         let definition = Definition {
             ops: operations,
@@ -113,7 +113,7 @@ impl Program {
             } else {
                 Clock::Interval(clock)
             },
-            units: self::units(units),
+            units,
         };
         Ok(Self {
             blueprint: lower(&definition).map_err(of_definition)?,

@@ -1,4 +1,4 @@
-//! Maps: a colour for each cell of a regular grid over two parameters.
+//! Maps: a colour for each cell of a grid over two parameters.
 //!
 //! # Where the cells lie
 //! A value belongs to the middle of its cell, so ticks point at middles. Cells end halfway to their

@@ -1,0 +1,93 @@
+//! The manifest of a folder of pieces: to which work they belong.
+
+use super::MANIFEST;
+use super::piece::FORMAT;
+use crate::ResultsError;
+use std::path::Path;
+use std::{fs, io};
+
+/// Names and values that say to which work the pieces in `dir` belong, as given at its first opening.
+///
+/// # Errors
+/// [`ResultsError::AbsentPieces`] if `dir` is no folder of pieces, [`ResultsError::ForeignPieces`] if its manifest
+/// is damaged or of another format, [`ResultsError::Io`] if it cannot be read.
+pub fn work_in(dir: &Path) -> Result<Vec<(String, String)>, ResultsError> {
+    let foreign = |differences| ResultsError::ForeignPieces {
+        path: dir.to_path_buf(),
+        differences,
+    };
+    let manifest = parse(&read_manifest(dir)?).map_err(foreign)?;
+    let owned = |(name, value): (&str, &str)| (name.to_owned(), value.to_owned());
+    Ok(entries(&manifest).map(owned).collect())
+}
+
+pub(super) fn read_manifest(dir: &Path) -> Result<Vec<u8>, ResultsError> {
+    let path = dir.join(MANIFEST);
+    fs::read(&path).map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => ResultsError::AbsentPieces {
+            path: dir.to_path_buf(),
+            manifest: MANIFEST,
+        },
+        _ => ResultsError::io("read", &path)(error),
+    })
+}
+
+/// The manifest: format and fingerprint as JSON, in the order given.
+pub(super) fn text_of(fingerprint: &[(&str, &str)]) -> Vec<u8> {
+    let fingerprint: Vec<_> = fingerprint
+        .iter()
+        .map(|(name, value)| serde_json::json!({ "name": name, "value": value }))
+        .collect();
+    // Sorted by key, whether or not serde_json does so: the checksum of this text is in each piece.
+    let manifest = serde_json::json!({
+        "fingerprint": fingerprint,
+        "format": "saltus-pieces",
+        "format_version": FORMAT,
+    });
+    format!("{manifest:#}\n").into_bytes()
+}
+
+fn parse(manifest: &[u8]) -> Result<serde_json::Value, String> {
+    let found: serde_json::Value = serde_json::from_slice(manifest)
+        .map_err(|error| format!("`{MANIFEST}` cannot be read ({error})"))?;
+    match &found["format_version"] {
+        version if *version == FORMAT => Ok(found),
+        version => Err(format!("their format is {version}, not {FORMAT}")),
+    }
+}
+
+/// Names and values of a fingerprint.
+fn entries(manifest: &serde_json::Value) -> impl Iterator<Item = (&str, &str)> {
+    let list = manifest["fingerprint"].as_array().into_iter().flatten();
+    list.filter_map(|entry| Some((entry["name"].as_str()?, entry["value"].as_str()?)))
+}
+
+/// In words, what differs between a manifest and the fingerprint that is wanted.
+pub(super) fn compare(manifest: &[u8], wanted: &[(&str, &str)]) -> Result<(), String> {
+    let found = parse(manifest)?;
+    let theirs: Vec<(&str, &str)> = entries(&found).collect();
+    let value = |list: &[(&str, &str)], name: &str| {
+        let entry = list.iter().find(|entry| entry.0 == name);
+        entry.map_or("absent".to_owned(), |entry| format!("`{}`", entry.1))
+    };
+    let mut names: Vec<&str> = wanted.iter().map(|entry| entry.0).collect();
+    names.extend(
+        theirs
+            .iter()
+            .map(|entry| entry.0)
+            .filter(|&name| wanted.iter().all(|w| w.0 != name)),
+    );
+    let differences: Vec<String> = names
+        .into_iter()
+        .map(|name| (name, value(&theirs, name), value(wanted, name)))
+        .filter(|(_, theirs, wanted)| theirs != wanted)
+        .map(|(name, theirs, wanted)| format!("{name} is {theirs} there and {wanted} here"))
+        .collect();
+    if !differences.is_empty() {
+        Err(differences.join(", "))
+    } else if theirs != wanted {
+        Err("the entries of its fingerprint are the same in another order".to_owned())
+    } else {
+        Ok(())
+    }
+}
