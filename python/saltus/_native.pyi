@@ -16,12 +16,14 @@ __all__ = [
     "Trajectories",
     "__version__",
     "ask",
+    "compute",
     "count",
     "describe",
     "load",
     "paper",
     "paper_template",
     "parse",
+    "pieces",
     "program",
     "resolve",
     "schema",
@@ -51,15 +53,25 @@ def ask(
     *,
     out: PathLike[str] | None = None,
     resume: bool = False,
+    pieces: Sequence[tuple[int, bytes]] | None = None,
     threads: int = 0,
     progress: _Progress = None,
 ) -> Answer: ...
+def compute(
+    request: str,
+    study: str,
+    pieces: Sequence[int],
+    *,
+    threads: int = 0,
+    progress: _Progress = None,
+) -> list[tuple[int, bytes]]: ...
 def count(total: int, *, panics: bool = False, progress: _Progress = None) -> int: ...
 def describe(json: str) -> tuple[str, list[str]]: ...
 def load(path: PathLike[str], overrides: Sequence[str]) -> _Resolved: ...
 def paper() -> _Resolved: ...
 def paper_template() -> str: ...
 def parse(name: str, text: str, overrides: Sequence[str]) -> _Resolved: ...
+def pieces(request: str, study: str) -> int: ...
 def program(arguments: Sequence[str]) -> int: ...
 def resolve(json: str, overrides: Sequence[str]) -> _Resolved: ...
 def schema() -> str: ...

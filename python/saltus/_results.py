@@ -201,6 +201,8 @@ class Result(Mapping[str, NDArray[Any]]):
 
         def array(variable: Variable) -> xarray.Variable:
             attrs = dict(variable.attrs)
+            if variable.values.dtype == bool:
+                attrs |= {"flag_values": np.array([0, 1], np.uint8), "flag_meanings": "false true"}
             if variable.meanings:
                 attrs["flag_values"] = np.array(list(variable.meanings), variable.values.dtype)
                 meanings = variable.meanings.values()
@@ -211,12 +213,12 @@ class Result(Mapping[str, NDArray[Any]]):
             encoding = {"dtype": variable.values.dtype, "_FillValue": variable.fill}
             return xarray.Variable(variable.dims, values, attrs, encoding)
 
-        variables = self.variables.values()
+        attrs = dict(self.attrs)
+        # by this attribute a file says which of its arrays are coordinates too
+        more = attrs.pop("coordinates", "").split()
         return xarray.Dataset(
-            {v.name: array(v) for v in variables if not v.coordinate},
-            {v.name: array(v) for v in variables if v.coordinate},
-            dict(self.attrs),
-        )
+            {name: array(variable) for name, variable in self.variables.items()}, attrs=attrs
+        ).set_coords(more)
 
     def to_pandas(self, table: str | None = None) -> pandas.DataFrame:
         """Return a table as a data frame; without a name the first."""

@@ -3,6 +3,7 @@
 use crate::ending::{self, Ending};
 use crate::{help, output};
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use saltus_commands::Shard;
 use std::ffi::OsString;
 use std::io::{self, IsTerminal};
 use std::path::PathBuf;
@@ -32,10 +33,10 @@ pub(crate) enum Command {
     Simulate(SimulateArgs),
     /// Long-term motion while one parameter changes
     #[command(after_help = help::SWEEP)]
-    Sweep(WorkArgs),
+    Sweep(DividedArgs),
     /// Long-term motion at each point of a plane of two parameters
     #[command(after_help = help::MAP)]
-    Map(PlaneArgs),
+    Map(DividedArgs),
     /// Which long-term motion each first state leads to
     #[command(after_help = help::BASINS)]
     Basins(BasinsArgs),
@@ -136,20 +137,26 @@ pub(crate) struct WorkArgs {
     pub(crate) threads: ThreadArgs,
 }
 
-/// What a command takes that computes pixel by pixel.
+/// What a command takes whose work can be cut into pieces.
 #[derive(Debug, Args)]
-pub(crate) struct PlaneArgs {
+pub(crate) struct DividedArgs {
     #[command(flatten)]
     pub(crate) work: WorkArgs,
-    /// Go on with an interrupted run of the same command; starts anew if there is none
+    /// Go on with the pieces of an interrupted run or of shards; starts anew if there are none
     #[arg(long, requires = "out")]
     pub(crate) resume: bool,
+    /// Make every n-th piece from the i-th on, for --merge or --resume, and write no results
+    #[arg(long, value_name = "I/N", requires = "out", conflicts_with = "resume")]
+    pub(crate) shard: Option<Shard>,
+    /// Put the pieces of all shards together; computes nothing
+    #[arg(long, requires = "out", conflicts_with_all = ["resume", "shard"])]
+    pub(crate) merge: bool,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct BasinsArgs {
     #[command(flatten)]
-    pub(crate) plane: PlaneArgs,
+    pub(crate) divided: DividedArgs,
     /// Number and colour the attractors as `saltus attractors` does along the sweep of [attractors]
     #[arg(long = "match")]
     pub(crate) matched: bool,

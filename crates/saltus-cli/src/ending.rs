@@ -70,7 +70,7 @@ fn code(failure: &Failure) -> u8 {
         Failure::Study(error) if error.kind() == StudyErrorKind::Unreadable => 3,
         Failure::Computation { .. } | Failure::Results(ResultsError::Png { .. }) => 1,
         Failure::Study(_) | Failure::Refused { .. } => 2,
-        Failure::Work { .. } | Failure::Results(_) => 3,
+        Failure::Work { .. } | Failure::Incomplete { .. } | Failure::Results(_) => 3,
         Failure::Interrupted | Failure::Suspended { .. } => 130,
     }
 }
@@ -141,7 +141,11 @@ mod tests {
             Failure::refused("x", "y").into(),
             Ending::Output("x".to_owned()),
             Failure::Interrupted.into(),
-            Failure::Suspended { folder: "x".into() }.into(),
+            Failure::Suspended {
+                folder: "x".into(),
+                shard: true,
+            }
+            .into(),
             Ending::ClosedPipe,
         ] {
             assert!(

@@ -25,10 +25,11 @@ JSON (--json, and simulate.json in --out):
   periods, period_s, base_hz, steps, version, study (as resolved)
 
 Folder (--out):
-  study.toml, simulate.json, section.csv, switches.csv, history.csv, energy.csv
-  and the figures portrait and history as SVG and PNG (for an empty plate the
-  figure section). The time history covers the last 20 periods at most;
-  simulate.transient is left out of it and of the figures.
+  study.toml, simulate.json, section.csv, switches.csv, history.csv, energy.csv,
+  simulate.nc (all of these as arrays: xarray.open_dataset) and the figures
+  portrait and history as SVG and PNG (for an empty plate the figure section).
+  The time history covers the last 20 periods at most; simulate.transient is
+  left out of it and of the figures.
 
 A run that ends early (chattering, ...) is told in full, with its status, and
 ends with exit code 1. solver.method = \"rk4\" with a step above its stability
@@ -69,12 +70,16 @@ JSON (--json, and sweep.json in --out):
   version, study (as resolved)
 
 Folder (--out):
-  study.toml, sweep.json, sweep.csv (samples), rows.csv and the figures
+  study.toml, sweep.json, sweep.csv (samples), rows.csv, sweep.nc (arrays over
+  pass, value, jumper and sample: xarray.open_dataset) and the figures
   bifurcation and, with sweep.exponents, exponents as SVG and PNG.
 
 A value that has no model, or whose run ends early, is a row that says so. Only
 if no row is completed nothing is printed or written, and the exit code is 1 (2
-if the study is to blame). Results are the same bits for any --threads.";
+if the study is to blame). Results are the same bits for any --threads.
+
+With sweep.direction = \"restarts\" and --out finished pieces are kept until the
+results are written; --resume, --shard and --merge as in `saltus map`.";
 
 /// Below `saltus map --help`.
 pub(crate) const MAP: &str = "\
@@ -121,7 +126,17 @@ Folder (--out):
 Finished pieces are kept beside the folder, in .NAME.saltus-pieces, until it is
 written. After an interruption (Ctrl-C, a kill, a power cut) the same command
 with --resume goes on; the results are the same bits as without interruption,
-and for any --threads.";
+and for any --threads.
+
+Many processes, on as many machines as see the folder: --shard 1/64 to 64/64
+make every 64th piece each, in any order and side by side; one that was killed
+does only what is missing when it is started again. Then the same command with
+--merge puts the pieces together, or names each that is missing, truncated,
+altered or of other work (exit code 3); with --resume such pieces are computed
+first. Pieces are of the study, the version and the way a processor rounds; the
+bits are those of a single run. There are at most 4096 pixels in a piece, some
+256 pieces of a small plane and 24 415 of 10 000 x 10 000 pixels: more shards
+than pieces have nothing to do.";
 
 /// Below `saltus basins --help`.
 pub(crate) const BASINS: &str = "\
@@ -159,7 +174,7 @@ Folder (--out):
   study.toml, basins.json, basins.nc, attractors.csv (one line per attractor,
   jumper and sample) and the figures basins and layers as SVG and PNG.
 
---resume as in `saltus map`.";
+--resume, --shard and --merge as in `saltus map`.";
 
 /// Below `saltus orbit --help`.
 pub(crate) const ORBIT: &str = "\
@@ -194,8 +209,9 @@ JSON (--json, and orbit.json in --out):
   several.
 
 Folder (--out):
-  study.toml, orbit.json, section.csv, multipliers.csv, switches.csv and the
-  figures portrait and multipliers as SVG and PNG.
+  study.toml, orbit.json, section.csv, multipliers.csv, switches.csv, orbit.nc
+  (these and the way around as arrays: xarray.open_dataset) and the figures
+  portrait and multipliers as SVG and PNG.
 
 If no orbit is found the exit code is 1, and the message says how far the search
 came.";
@@ -237,10 +253,11 @@ JSON (--json, and continue.json in --out):
 
 Folder (--out):
   study.toml, continue.json, branches.csv (one line per point and place of the
-  orbit), special_points.csv, ends.csv, curves.csv, and the figures branches and
-  curves as SVG and PNG. Behind the branches lie the long-term motions at
-  continue.cloud values, 50 forcing periods after 150, the state carried on
-  upwards and downwards.";
+  orbit), special_points.csv, ends.csv, curves.csv, continue.nc (arrays over
+  point, special point and point of a curve, with all multipliers:
+  xarray.open_dataset), and the figures branches and curves as SVG and PNG.
+  Behind the branches lie the long-term motions at continue.cloud values, 50
+  forcing periods after 150, the state carried on upwards and downwards.";
 
 /// Below `saltus lyapunov --help`.
 pub(crate) const LYAPUNOV: &str = "\
@@ -282,8 +299,8 @@ JSON (--json, and lyapunov.json in --out):
 
 Folder (--out):
   study.toml, lyapunov.json, convergence.csv (the exponents from the first
-  periods of the record, over how many these are) and the figure convergence as
-  SVG and PNG.
+  periods of the record, over how many these are), lyapunov.nc (as arrays:
+  xarray.open_dataset) and the figure convergence as SVG and PNG.
 
 Replicas that end early (chattering, ...) are told with what they measured, and
 exit code 1. Results are the same bits for any --threads.";
@@ -340,7 +357,8 @@ JSON (--json, and attractors.json in --out):
 
 Folder (--out):
   study.toml, attractors.json, attractors.csv (one line per value, attractor and
-  jumper), sections.csv (one per sample of these), loops.csv, and the figure
+  jumper), sections.csv (one per sample of these), loops.csv, attractors.nc
+  (arrays over value and attractor: xarray.open_dataset), and the figure
   attractors as SVG and PNG.
 
 Results are the same bits for any --threads.";

@@ -1,13 +1,15 @@
 //! What each command does: reads the study, asks, writes and tells what was found.
 
 use crate::args::{
-    BasinsArgs, Command, ContinueArgs, OutputArgs, PlaneArgs, ReproduceArgs, SimulateArgs,
+    BasinsArgs, Command, ContinueArgs, DividedArgs, OutputArgs, ReproduceArgs, SimulateArgs,
     StudyArgs, ThreadArgs, WorkArgs,
 };
 use crate::ending::Ending;
 use crate::progress::Bars;
 use crate::{check, init, interrupt, output, schema};
-use saltus_commands::{Answer, Context, Failure, Folder, Keep, Labelled, Request};
+use saltus_commands::{
+    Answer, Context, Failure, Folder, Found, Keep, Labelled, Place, Request, Shard,
+};
 use saltus_config::Study;
 use std::io;
 use std::path::Path;
@@ -22,8 +24,8 @@ pub(crate) fn run(command: Command) -> Result<(), Ending> {
         Command::Schema(args) => schema::run(&args),
         Command::Frequencies(args) => work(&Request::Frequencies, &args),
         Command::Simulate(args) => simulate(&args),
-        Command::Sweep(args) => work(&Request::Sweep, &args),
-        Command::Map(args) => plane(&Request::Map, &args),
+        Command::Sweep(args) => divided(&Request::Sweep, &args),
+        Command::Map(args) => divided(&Request::Map, &args),
         Command::Basins(args) => basins(&args),
         Command::Orbit(args) => work(&Request::Orbit, &args),
         Command::Continue(args) => continuation(&args),
@@ -46,7 +48,7 @@ fn work(request: &Request, args: &WorkArgs) -> Result<(), Ending> {
         threads: &args.threads,
         keep: None,
     };
-    answer(request, &study, how)
+    answer(request, &study, &how)
 }
 
 fn simulate(args: &SimulateArgs) -> Result<(), Ending> {
@@ -58,26 +60,32 @@ fn simulate(args: &SimulateArgs) -> Result<(), Ending> {
         threads: &args.threads,
         keep: None,
     };
-    answer(&Request::Simulate, &study, how)
+    answer(&Request::Simulate, &study, &how)
 }
 
-fn plane(request: &Request, args: &PlaneArgs) -> Result<(), Ending> {
+fn divided(request: &Request, args: &DividedArgs) -> Result<(), Ending> {
     let study = load(&args.work.study, &[])?;
-    let keep = args.work.output.out.clone().map(|out| Keep {
-        out,
-        resume: args.resume,
-    });
+    let found = match (args.merge, args.resume) {
+        (true, _) => Found::Merge,
+        (_, true) => Found::Resume,
+        _ => Found::InTheWay,
+    };
+    let place = args.work.output.out.clone().map(Place::Beside);
+    let keep = place.map(|place| Keep { place, found });
     let how = How {
         output: &args.work.output,
         threads: &args.work.threads,
         keep,
     };
-    answer(request, &study, how)
+    match args.shard {
+        Some(shard) => share(request, &study, shard, &how),
+        None => answer(request, &study, &how),
+    }
 }
 
 fn basins(args: &BasinsArgs) -> Result<(), Ending> {
     let matched = args.matched;
-    plane(&Request::Basins { matched }, &args.plane)
+    divided(&Request::Basins { matched }, &args.divided)
 }
 
 fn continuation(args: &ContinueArgs) -> Result<(), Ending> {
@@ -101,7 +109,7 @@ fn reproduce(args: &ReproduceArgs) -> Result<(), Ending> {
     answer(
         &Request::Reproduce { quick: args.quick },
         &Study::paper(),
-        how,
+        &how,
     )?;
     if args.json || args.quiet {
         return Ok(());
@@ -114,20 +122,39 @@ fn reproduce(args: &ReproduceArgs) -> Result<(), Ending> {
     ))
 }
 
-/// Asks, writes the folder of results if one was asked for, and tells what was found.
-fn answer(request: &Request, study: &Study, how: How) -> Result<(), Ending> {
-    let bars = Bars::new(how.output.quiet);
-    let context = Context {
-        threads: how.threads.threads.map_or(0, usize::from),
-        stop: interrupt::flag(),
-        watch: &bars,
-        keep: how.keep,
-    };
-    let study = &request.study(study)?;
-    if let Some(out) = &how.output.out {
-        // refused before a long computation, but staged after it: a killed one leaves nothing behind
-        drop(Folder::stage(out, Some(request), study, &context)?);
+impl How<'_> {
+    fn context<'a>(&self, bars: &'a Bars) -> Context<'a> {
+        Context {
+            threads: self.threads.threads.map_or(0, usize::from),
+            stop: interrupt::flag(),
+            watch: bars,
+            keep: self.keep.clone(),
+        }
     }
+
+    /// Refused before a long computation, but staged after it: a killed one leaves nothing behind.
+    fn try_out(&self, request: &Request, study: &Study, context: &Context) -> Result<(), Failure> {
+        match &self.output.out {
+            Some(out) => Folder::stage(out, Some(request), study, context).map(drop),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Makes the pieces of a shard, and tells which.
+fn share(request: &Request, study: &Study, shard: Shard, how: &How) -> Result<(), Ending> {
+    let bars = Bars::new(how.output.quiet);
+    let context = how.context(&bars);
+    how.try_out(request, study, &context)?;
+    tell(how.output, &request.share(study, shard, &context)?)
+}
+
+/// Asks, writes the folder of results if one was asked for, and tells what was found.
+fn answer(request: &Request, study: &Study, how: &How) -> Result<(), Ending> {
+    let bars = Bars::new(how.output.quiet);
+    let context = how.context(&bars);
+    let study = &request.study(study)?;
+    how.try_out(request, study, &context)?;
     let mut answer = request.ask(study, &context)?;
     if let Some(out) = &how.output.out {
         write(request, answer.as_ref(), study, out, &context)?;
@@ -152,6 +179,7 @@ fn write(
     match (written, answer.pieces()) {
         (Err(Failure::Interrupted), Some(pieces)) => Err(Failure::Suspended {
             folder: pieces.to_path_buf(),
+            shard: false,
         }),
         (written, _) => written.map(drop),
     }

@@ -185,6 +185,7 @@ fn out_is_a_whole_folder_and_threads_do_not_change_a_bit() {
         [
             "attractors.csv",
             "attractors.json",
+            "attractors.nc",
             "attractors.png",
             "attractors.svg",
             "loops.csv",

@@ -102,6 +102,7 @@ fn the_branch_at_0_9_doubles_once() {
             "branches.png",
             "branches.svg",
             "continue.json",
+            "continue.nc",
             "curves.csv",
             "ends.csv",
             "saltus-result.json",

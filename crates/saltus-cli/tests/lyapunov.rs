@@ -140,6 +140,7 @@ fn out_is_a_folder_with_the_document_the_table_and_the_figure() {
             "convergence.png",
             "convergence.svg",
             "lyapunov.json",
+            "lyapunov.nc",
             "saltus-result.json",
             "study.toml",
         ]

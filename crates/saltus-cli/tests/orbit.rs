@@ -129,6 +129,7 @@ fn out_is_a_whole_folder() {
             "multipliers.png",
             "multipliers.svg",
             "orbit.json",
+            "orbit.nc",
             "portrait.png",
             "portrait.svg",
             "saltus-result.json",

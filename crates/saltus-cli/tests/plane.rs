@@ -3,30 +3,13 @@
 
 mod common;
 
-use common::{Desk, files, json, program, saltus};
+use common::underway::{Underway, count_pieces, small};
+use common::{Desk, files, json, saltus};
 use predicates::prelude::*;
 use predicates::str::contains;
 use serde_json::Value;
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command as Process, Stdio};
-use std::thread;
-use std::time::Duration;
-
-/// Few pixels, a few periods each.
-fn small(command: &str, count: u32) -> Vec<String> {
-    let sets = [
-        "plate.inertia=condensed".to_owned(),
-        format!("{command}.x.count={count}"),
-        format!("{command}.y.count={count}"),
-        format!("{command}.transient=40"),
-        format!("{command}.record=8"),
-        format!("{command}.exponent=100"),
-    ];
-    sets.into_iter()
-        .flat_map(|set| ["--set".to_owned(), set])
-        .collect()
-}
+use std::process::Command as Process;
 
 fn run(desk: &Desk, command: &str, args: &[&str]) -> Value {
     let paper = desk.paper();
@@ -298,53 +281,6 @@ fn the_summary_is_for_people() {
         .stderr("")
         .stdout(contains("6 x 6 pixels").and(contains("attractors")));
     run("map", &["--quiet"]).success().stderr("").stdout("");
-}
-
-/// A run that can be stopped from outside, and its work folder.
-struct Underway {
-    child: Child,
-    pieces: PathBuf,
-}
-
-impl Underway {
-    fn start(desk: &Desk, command: &str, count: u32, out: &str, more: &[&str]) -> Self {
-        let child = Process::new(program())
-            .args([command, &desk.paper(), "--quiet", "--out", &desk.str(out)])
-            .args(small(command, count))
-            .args(more)
-            .stdin(Stdio::null())
-            .stdout(Stdio::null())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        Self {
-            child,
-            pieces: desk.path(&format!(".{out}.saltus-pieces")),
-        }
-    }
-
-    /// Waits until there are so many pieces, or the run has ended.
-    fn until(&mut self, pieces: usize) {
-        while count_pieces(&self.pieces) < pieces && self.child.try_wait().unwrap().is_none() {
-            thread::sleep(Duration::from_millis(1));
-        }
-    }
-
-    /// SIGKILL: nothing can be tidied up.
-    fn kill(mut self) {
-        // a run that has ended already is as good
-        let _ = self.child.kill();
-        self.child.wait().unwrap();
-    }
-}
-
-fn count_pieces(folder: &Path) -> usize {
-    fs::read_dir(folder).map_or(0, |entries| {
-        let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-        names
-            .filter(|name| name.starts_with("piece-") && name.ends_with(".bin"))
-            .count()
-    })
 }
 
 #[test]

@@ -159,6 +159,7 @@ fn out_is_a_whole_folder_and_again_replaces_it() {
             "saltus-result.json",
             "section.csv",
             "simulate.json",
+            "simulate.nc",
             "study.toml",
             "switches.csv",
         ]

@@ -15,17 +15,37 @@ pub struct Context<'a> {
     pub stop: Arc<AtomicBool>,
     /// Told how far the work has come.
     pub watch: &'a dyn Watch,
-    /// Where finished pieces of `map` and `basins` are kept while the rest is computed; nowhere by default.
+    /// Where finished pieces of work that can be cut are kept; nowhere by default.
     pub keep: Option<Keep>,
 }
 
-/// Pieces of long work that outlive an interruption.
+/// Pieces of long work: they outlive an interruption, and may come from elsewhere.
 #[derive(Clone, Debug)]
 pub struct Keep {
-    /// The folder of results to be: pieces lie beside it.
-    pub out: PathBuf,
-    /// Go on with pieces that are there; otherwise they are in the way.
-    pub resume: bool,
+    /// Where they are.
+    pub place: Place,
+    /// What becomes of those that are there.
+    pub found: Found,
+}
+
+/// Where pieces are.
+#[derive(Clone, Debug)]
+pub enum Place {
+    /// In a hidden folder beside this one, the folder of results to be.
+    Beside(PathBuf),
+    /// In memory, with their numbers, as [`Request::compute`](crate::Request::compute) gave them.
+    Memory(Vec<(u32, Vec<u8>)>),
+}
+
+/// What becomes of pieces that are there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Found {
+    /// They are in the way: the work begins anew or not at all. In memory nothing is in the way.
+    InTheWay,
+    /// The work goes on with those that are whole, and makes the others.
+    Resume,
+    /// They are put together, and nothing is computed: all must be there and whole.
+    Merge,
 }
 
 /// A part of the work.

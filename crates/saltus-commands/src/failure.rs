@@ -1,5 +1,6 @@
 //! Why a question has no answer.
 
+use crate::pieces::Lack;
 use saltus::hybrid::IntegrateError;
 use saltus::model::ModelError;
 use saltus::physics::PhysicsError;
@@ -42,6 +43,16 @@ pub enum Failure {
     Suspended {
         /// The work folder.
         folder: PathBuf,
+        /// Whether it was a shard, which goes on by itself.
+        shard: bool,
+    },
+    /// Pieces that shall be put together are not all there and whole.
+    #[error("{} of {pieces} pieces are not there as they should be:{}", lacks.len(), list(lacks))]
+    Incomplete {
+        /// What is wrong, piece by piece.
+        lacks: Vec<Lack>,
+        /// How many pieces there should be.
+        pieces: u32,
     },
     /// A folder of work or results that is in the way, or not what it should be.
     #[error("{message}")]
@@ -97,14 +108,26 @@ impl Failure {
         match self {
             Self::Computation { help, .. } | Self::Refused { help, .. } => help.clone(),
             Self::Work { help, .. } => Some((*help).to_owned()),
-            Self::Suspended { .. } => {
+            Self::Suspended { shard: true, .. } => {
+                Some("the same command goes on with it".to_owned())
+            }
+            Self::Suspended { shard: false, .. } => {
                 Some("the same command with --resume goes on with it".to_owned())
             }
+            Self::Incomplete { .. } => Some(
+                "run these shards again, or give --resume instead of --merge to compute them here"
+                    .to_owned(),
+            ),
             Self::Study(error) => error.advice().map(str::to_owned),
             Self::Lost(reason) => reason.help(),
             Self::Results(_) | Self::Interrupted => None,
         }
     }
+}
+
+/// One line each.
+fn list(lacks: &[Lack]) -> String {
+    lacks.iter().map(|lack| format!("\n  {lack}")).collect()
 }
 
 impl From<RunError> for Failure {

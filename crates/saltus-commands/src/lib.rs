@@ -21,6 +21,7 @@ mod models;
 mod motion;
 mod orbit;
 mod per_jumper;
+mod pieces;
 mod plane;
 mod portrait;
 mod repeats;
@@ -34,8 +35,9 @@ mod words;
 
 pub use about::about;
 pub use citations::{Citation, citations};
-pub use context::{Context, Keep, Stage, Unwatched, Watch};
+pub use context::{Context, Found, Keep, Place, Stage, Unwatched, Watch};
 pub use describe::{describe, warnings};
 pub use failure::Failure;
+pub use pieces::{Lack, Shard, ShardError, Share};
 pub use request::{Answer, Labelled, Request};
 pub use store::{Fill, Folder, Rows, Store};

@@ -29,6 +29,11 @@ impl<'a> Models<'a> {
         }
     }
 
+    /// The study that they are of.
+    pub(super) fn study(&self) -> &'a Study {
+        self.study
+    }
+
     /// The equations of motion, with a step that the solver can take; one value for each parameter.
     pub(super) fn at(&self, values: &[f64]) -> Result<Model, ModelError> {
         let setup = self.study_at(values)?.setup();

@@ -2,6 +2,7 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::pieces::{Divided, Shard, Share};
 use crate::store::Store;
 use crate::{
     attractors, basins, continuation, frequencies, lyapunov, map, orbit, reproduce, simulate, sweep,
@@ -152,6 +153,54 @@ impl Request {
             Self::Lyapunov => lyapunov::ask(study, context),
             Self::Attractors => attractors::ask(study, context),
             Self::Reproduce { quick } => reproduce::ask(*quick, context),
+        }
+    }
+}
+
+/// Work that is shared out: `map`, `basins`, and `sweep` where each value is taken anew. Its pieces come together in
+/// [`Request::ask`] with a [`Keep`](crate::Keep) that says where they are. `study` is what [`Request::study`] gives.
+impl Request {
+    /// How many pieces there are. It depends on the study alone.
+    ///
+    /// # Errors
+    /// [`Failure`] if the study does not fit the question, or it cannot be cut.
+    pub fn pieces(&self, study: &Study) -> Result<u32, Failure> {
+        Ok(self.divided(study)?.pieces())
+    }
+
+    /// Makes those pieces of a shard that are missing in the folder of pieces, beside others that do the same.
+    /// No results are written; `context` must say where they will be.
+    ///
+    /// # Errors
+    /// As [`Self::ask`], [`Self::pieces`]; [`Failure::Results`] if the folder is of other work, or somebody is putting
+    /// its pieces together.
+    pub fn share(&self, study: &Study, shard: Shard, context: &Context) -> Result<Share, Failure> {
+        self.divided(study)?.share(shard, context)
+    }
+
+    /// Makes these pieces, counted from 0, as bytes that say of themselves whether they are whole and of which
+    /// work: those of their files. They come in the order of their numbers, each once.
+    ///
+    /// # Errors
+    /// As [`Self::ask`], [`Self::pieces`]; [`Failure::Refused`] if there is no such piece.
+    pub fn compute(
+        &self,
+        study: &Study,
+        pieces: &[u32],
+        context: &Context,
+    ) -> Result<Vec<(u32, Vec<u8>)>, Failure> {
+        self.divided(study)?.compute(pieces, context)
+    }
+
+    fn divided<'a>(&self, study: &'a Study) -> Result<Box<dyn Divided + 'a>, Failure> {
+        match self {
+            Self::Map => map::divided(study),
+            Self::Basins { .. } => basins::divided(study),
+            Self::Sweep => sweep::divided(study),
+            other => Err(Failure::refused(
+                format!("the work of `{}` cannot be cut into pieces", other.name()),
+                "that of map, basins and sweep can",
+            )),
         }
     }
 }

@@ -8,10 +8,11 @@ use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 use saltus_commands::{
-    Answer as Found, Context, Failure, Fill, Folder, Keep, Request, Rows, Store,
+    Answer as Answered, Context, Failure, Fill, Folder, Found, Keep, Place, Request, Rows, Store,
 };
 use saltus_config::Study;
 use saltus_results::{Attribute, Column, Columns, Dataset, Figure as Drawing, Values, Variable};
+use std::borrow::Cow;
 use std::ffi::CString;
 use std::path::{Path, PathBuf};
 
@@ -20,31 +21,52 @@ use std::path::{Path, PathBuf};
 pub(crate) struct Answer {
     request: Request,
     study: Study,
-    found: Box<dyn Found>,
+    found: Box<dyn Answered>,
 }
 
+/// A piece of long work: its number, and bytes that say of themselves whether they are whole and of which work.
+type Piece = (u32, Cow<'static, [u8]>);
+
 /// Asks; `request` and `study` are JSON. With `out` the folder of results is written too, and what is finished of
-/// a long computation is kept beside it until then.
+/// a long computation is kept beside it until then. With `pieces` these are put together.
 #[pyfunction]
-#[pyo3(signature = (request, study, *, out=None, resume=false, threads=0, progress=None))]
+#[pyo3(signature = (request, study, *, out=None, resume=false, pieces=None, threads=0, progress=None))]
+#[expect(
+    clippy::too_many_arguments,
+    reason = "all but two have names in Python"
+)]
 pub(crate) fn ask(
     py: Python<'_>,
     request: &str,
     study: &str,
     out: Option<PathBuf>,
     resume: bool,
+    pieces: Option<Vec<(u32, Vec<u8>)>>,
     threads: usize,
     progress: Listener,
 ) -> PyResult<Answer> {
-    let request: Request = serde_json::from_str(request).map_err(error::of_definition)?;
-    let study = Study::from_json(study, &[]).map_err(|problem| error::of_study(&problem))?;
+    let (request, study) = question(request, study)?;
     let board = Board::default();
+    let keep = match pieces {
+        Some(pieces) => Some(Keep {
+            place: Place::Memory(pieces),
+            found: Found::Merge,
+        }),
+        None => out.clone().map(|out| Keep {
+            place: Place::Beside(out),
+            found: if resume {
+                Found::Resume
+            } else {
+                Found::InTheWay
+            },
+        }),
+    };
     let answer = attended(py, &progress, &board, |stop| {
         let context = Context {
             threads,
             stop: stop.clone(),
             watch: &board,
-            keep: out.clone().map(|out| Keep { out, resume }),
+            keep,
         };
         asked(request, &study, out.as_deref(), &context)
     })?;
@@ -53,6 +75,50 @@ pub(crate) fn ask(
         PyErr::warn(py, &py.get_type::<PyUserWarning>(), &note, 2)?;
     }
     answer.map_err(|failure| error::of(&failure))
+}
+
+/// How many pieces the work can be cut into.
+#[pyfunction]
+pub(crate) fn pieces(request: &str, study: &str) -> PyResult<u32> {
+    let (request, study) = question(request, study)?;
+    request
+        .pieces(&study)
+        .map_err(|failure| error::of(&failure))
+}
+
+/// Makes pieces of the work, counted from 0.
+#[pyfunction]
+#[pyo3(signature = (request, study, pieces, *, threads=0, progress=None))]
+pub(crate) fn compute(
+    py: Python<'_>,
+    request: &str,
+    study: &str,
+    pieces: Vec<u32>,
+    threads: usize,
+    progress: Listener,
+) -> PyResult<Vec<Piece>> {
+    let (request, study) = question(request, study)?;
+    let board = Board::default();
+    let made = attended(py, &progress, &board, |stop| {
+        let context = Context {
+            threads,
+            stop: stop.clone(),
+            watch: &board,
+            keep: None,
+        };
+        request.compute(&study, &pieces, &context)
+    })?;
+    let made = made.map_err(|failure| error::of(&failure))?;
+    Ok(made
+        .into_iter()
+        .map(|(number, bytes)| (number, Cow::Owned(bytes)))
+        .collect())
+}
+
+fn question(request: &str, study: &str) -> PyResult<(Request, Study)> {
+    let request: Request = serde_json::from_str(request).map_err(error::of_definition)?;
+    let study = Study::from_json(study, &[]).map_err(|problem| error::of_study(&problem))?;
+    Ok((request, study))
 }
 
 fn asked(

@@ -28,7 +28,9 @@ pub(crate) fn of(failure: &Failure) -> PyErr {
         Failure::Computation { .. } | Failure::Results(ResultsError::Png { .. }) => {
             of_computation(text)
         }
-        Failure::Results(_) | Failure::Work { .. } => ResultError::new_err((text,)),
+        Failure::Results(_) | Failure::Work { .. } | Failure::Incomplete { .. } => {
+            ResultError::new_err((text,))
+        }
         Failure::Interrupted | Failure::Suspended { .. } => PyKeyboardInterrupt::new_err((text,)),
     }
 }

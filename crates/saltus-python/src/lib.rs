@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use crate::answer::{Answer, Figure, ask, program};
+    use crate::answer::{Answer, Figure, ask, compute, pieces, program};
     #[pymodule_export]
     use crate::running::{count, shut_down};
     #[pymodule_export]

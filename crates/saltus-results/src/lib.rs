@@ -39,5 +39,5 @@ pub use manifest::{FileRecord, Manifest, Problem};
 pub use page::{Fact, FigureBlock, Image, Page, Verdict};
 #[cfg(feature = "parquet")]
 pub use parquet::ParquetTable;
-pub use pieces::{Damage, PieceStore, Survey};
+pub use pieces::{Damage, PieceStore, Seal, Survey};
 pub use table::{CsvTable, MarkdownTable, Value};

@@ -30,11 +30,11 @@ mod lock;
 mod piece;
 mod work;
 
+pub use piece::Seal;
 pub use work::work_in;
 
 use crate::ResultsError;
 use lock::{Access, LOCK, lock};
-use piece::{HEADER, crc, header, problem};
 use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -44,6 +44,8 @@ use work::{compare, read_manifest, text_of};
 /// Name of the file that says which work the pieces belong to.
 pub const MANIFEST: &str = "saltus-pieces.json";
 
+/// Name of the file with the remark.
+const REMARK: &str = "remark";
 /// How the names of files in the making end; left by a killed process, they are removed at opening.
 const ASIDE: &str = ".part";
 /// The same for a shared folder. They stay until all is removed, since the one who opens the folder alone
@@ -58,8 +60,8 @@ const ASIDE_SHARED: &str = ".shared.part";
 #[derive(Debug)]
 pub struct PieceStore {
     dir: PathBuf,
-    /// CRC-32 of the fingerprint, in each piece: one from other work is told from ours.
-    fingerprint: u32,
+    /// In each piece: one from other work is told from ours.
+    seal: Seal,
     access: Access,
     lock: File,
 }
@@ -147,7 +149,7 @@ impl PieceStore {
         check_ours(dir)?;
         let store = Self {
             dir: dir.to_path_buf(),
-            fingerprint: crc(&[&text_of(work)]),
+            seal: Seal::of(work),
             access,
             lock: lock(dir, access)?,
         };
@@ -191,15 +193,15 @@ impl PieceStore {
     /// [`ResultsError::DamagedPiece`] if it is not what was written, [`ResultsError::Io`] if it cannot be
     /// read.
     pub fn read(&self, number: u32) -> Result<Option<Vec<u8>>, ResultsError> {
-        let path = self.dir.join(file_name(number));
-        let mut bytes = match fs::read(&path) {
+        let path = self.file(number);
+        let bytes = match fs::read(&path) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(ResultsError::io("read", &path)(error)),
         };
-        match problem(self.fingerprint, number, &bytes) {
-            None => Ok(Some(bytes.split_off(HEADER))),
-            Some(problem) => Err(ResultsError::DamagedPiece { path, problem }),
+        match self.seal.open(number, &bytes) {
+            Ok(content) => Ok(Some(content.to_vec())),
+            Err(problem) => Err(ResultsError::DamagedPiece { path, problem }),
         }
     }
 
@@ -209,8 +211,26 @@ impl PieceStore {
     /// # Errors
     /// [`ResultsError::Io`] if not every byte could be written; then the folder is as it was.
     pub fn write(&self, number: u32, content: &[u8]) -> Result<(), ResultsError> {
-        let header = header(self.fingerprint, number, content);
+        let header = self.seal.header(number, content);
         self.place(&file_name(number), &[&header, content], Place::Anew)
+    }
+
+    /// File of piece `number`, there or not.
+    pub fn file(&self, number: u32) -> PathBuf {
+        self.dir.join(file_name(number))
+    }
+
+    /// Leaves a line for later runs, in place of the last one. It says nothing of what the pieces are.
+    ///
+    /// # Errors
+    /// [`ResultsError::Io`] if it cannot be written.
+    pub fn remark(&self, line: &str) -> Result<(), ResultsError> {
+        self.place(REMARK, &[line.as_bytes()], Place::Anew)
+    }
+
+    /// The line that a run left last; `None` if none did or it cannot be read.
+    pub fn last_remark(&self) -> Option<String> {
+        fs::read_to_string(self.dir.join(REMARK)).ok()
     }
 
     /// Removes the pieces, the manifest and the folder. Files of others stay, and then so does the folder.
@@ -220,7 +240,9 @@ impl PieceStore {
     pub fn remove(self) -> Result<(), ResultsError> {
         let Self { dir, lock, .. } = &self;
         // The manifest goes last: without it what is left would look like a folder of somebody else.
-        self.remove_files(|name| name.ends_with(ASIDE) || number_of(name).is_some())?;
+        self.remove_files(|name| {
+            name.ends_with(ASIDE) || name == REMARK || number_of(name).is_some()
+        })?;
         self.remove_files(|name| name == MANIFEST)?;
         let _ = lock.unlock();
         self.remove_files(|name| name == LOCK)?;

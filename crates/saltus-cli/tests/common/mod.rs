@@ -1,6 +1,8 @@
 //! What the tests share: the program, and a desk to work at.
 #![allow(dead_code, reason = "each test file uses a part")]
 
+pub(crate) mod underway;
+
 use assert_cmd::Command;
 use std::fs;
 use std::path::PathBuf;

@@ -8,7 +8,8 @@ mod tables;
 use crate::attractors;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::plane::{self, Cell, Gather, Kept, Layers, Plane};
+use crate::pieces::{self, Divided, Kept};
+use crate::plane::{self, Begun, Cell, Layers, Pixels, Plane};
 use crate::request::Answer;
 use crate::store::{self, Store};
 use report::Report;
@@ -66,25 +67,17 @@ pub(crate) fn ask(
     matched: bool,
     context: &Context,
 ) -> Result<Box<dyn Answer>, Failure> {
-    let plane = question(study)?;
+    let job = job(study)?;
     let control = context.control(study);
-    let model = study.setup().model()?;
-    model.check_step(&control.options)?;
     // Sought first, so that a sweep that cannot be made is refused at once.
     let sweep = matched.then(|| attractors::along_the_sweep(study, &control, context));
     let sweep = sweep.transpose()?;
-    let swapped = plane.x.parameter.key() == "start.v";
-    let start_at = |pixel| {
-        let (x, y) = plane.grid.at(pixel);
-        let (z, v) = if swapped { (y, x) } else { (x, y) };
-        Ok((model.clone(), model.start(z, v)))
-    };
     let mut finding = Finding {
         layers: Layers::new(study.jumper.len()),
         catalogue: Catalogue::default(),
         number: Vec::new(),
     };
-    let mut kept = plane::run(("basins", study, &plane), context, start_at, &mut finding)?;
+    let mut kept = pieces::run(&job, context, &mut |pixel, cell| finding.take(pixel, cell))?;
     let mut basins = finding.ranked();
     if let Err(failure) = basins.layers.refuse_if_all_lost() {
         return kept.remove().and(Err(failure));
@@ -95,10 +88,32 @@ pub(crate) fn ask(
     }
     Ok(Box::new(Found {
         study: study.clone(),
-        plane,
+        plane: job.plane,
         basins,
         kept,
     }))
+}
+
+/// The basins as work that can be cut.
+pub(crate) fn divided(study: &Study) -> Result<Box<dyn Divided + '_>, Failure> {
+    Ok(Box::new(job(study)?))
+}
+
+fn job(study: &Study) -> Result<Pixels<'_, impl Fn(f64, f64) -> Begun + Sync>, Failure> {
+    let plane = question(study)?;
+    let model = study.setup().model()?;
+    model.check_step(&study.options())?;
+    let swapped = plane.x.parameter.key() == "start.v";
+    let start_at = move |x, y| {
+        let (z, v) = if swapped { (y, x) } else { (x, y) };
+        Ok((model.clone(), model.start(z, v)))
+    };
+    Ok(Pixels {
+        command: "basins",
+        study,
+        plane,
+        start_at,
+    })
 }
 
 /// What is asked, or what is missing in the question.
@@ -117,16 +132,14 @@ fn question(study: &Study) -> Result<Plane, Failure> {
     )
 }
 
-impl Gather for Finding {
-    fn cell(&mut self, pixel: usize, cell: Cell) {
+impl Finding {
+    fn take(&mut self, pixel: usize, cell: Cell) {
         self.layers.push(&cell);
         let motion = cell.attractor.ok();
         let number = motion.and_then(|motion| self.catalogue.file(pixel, motion));
         self.number.push(number);
     }
-}
 
-impl Finding {
     fn ranked(self) -> Basins {
         let (attractors, rank) = self.catalogue.ranked();
         let place = |number: Option<usize>| {

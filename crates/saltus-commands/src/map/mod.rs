@@ -7,7 +7,8 @@ mod summary;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::models::Models;
-use crate::plane::{self, Cell, Gather, Kept, Layers, Plane};
+use crate::pieces::{self, Divided, Kept};
+use crate::plane::{self, Begun, Cell, Layers, Pixels, Plane};
 use crate::request::Answer;
 use crate::store::{self, Store};
 use report::Report;
@@ -40,26 +41,40 @@ struct Map {
 }
 
 pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
-    let plane = question(study)?;
-    let parameters = [&plane.y.parameter, &plane.x.parameter];
-    let models = Models::new(study, &parameters, study.options());
-    let start_at = |pixel| {
-        let (x, y) = plane.grid.at(pixel);
-        let model = models.at(&[y, x])?;
-        let start = model.start(study.start.z, study.start.v);
-        Ok((model, start))
-    };
+    let job = job(study)?;
     let mut layers = Layers::new(study.jumper.len());
-    let mut kept = plane::run(("map", study, &plane), context, start_at, &mut layers)?;
+    let mut kept = pieces::run(&job, context, &mut |_, cell: Cell| layers.push(&cell))?;
     if let Err(failure) = layers.refuse_if_all_lost() {
         return kept.remove().and(Err(failure));
     }
     Ok(Box::new(Map {
         study: study.clone(),
-        plane,
+        plane: job.plane,
         layers,
         kept,
     }))
+}
+
+/// The map as work that can be cut.
+pub(crate) fn divided(study: &Study) -> Result<Box<dyn Divided + '_>, Failure> {
+    Ok(Box::new(job(study)?))
+}
+
+fn job(study: &Study) -> Result<Pixels<'_, impl Fn(f64, f64) -> Begun + Sync>, Failure> {
+    let plane = question(study)?;
+    let parameters = [&plane.y.parameter, &plane.x.parameter];
+    let models = Models::new(study, &parameters, study.options());
+    let start_at = move |x, y| {
+        let model = models.at(&[y, x])?;
+        let start = model.start(study.start.z, study.start.v);
+        Ok((model, start))
+    };
+    Ok(Pixels {
+        command: "map",
+        study,
+        plane,
+        start_at,
+    })
 }
 
 /// What is asked, or what is missing in the question.
@@ -76,12 +91,6 @@ fn question(study: &Study) -> Result<Plane, Failure> {
         table.record,
         table.exponent,
     )
-}
-
-impl Gather for Layers {
-    fn cell(&mut self, _: usize, cell: Cell) {
-        self.push(&cell);
-    }
 }
 
 impl Answer for Map {

@@ -1,29 +1,26 @@
 //! What `saltus map` and `saltus basins` share: a plane of pixels, each the attractor of one start.
 
-mod codec;
+mod cell;
 mod dataset;
 mod figure;
 mod layers;
-mod work;
 
-use crate::context::Context;
 use crate::failure::Failure;
+use crate::pieces::{Job, Reader, Sink, Writer};
 use saltus::hybrid::Point;
 use saltus::model::{Model, ModelError};
-use saltus::study::{Found, Grid, Search};
+use saltus::study::{Control, Grid, Search};
 use saltus_config::{AxisTable, Parameter, Study};
 use saltus_results::Axis;
 use serde::Serialize;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::Ordering;
 
 use crate::words::capitalized;
-pub(super) use codec::{Cell, Loss};
+pub(super) use cell::{Cell, Loss};
 pub(super) use dataset::dataset;
 pub(super) use figure::layers_figure;
 pub(super) use layers::{FirstFailure, Layers, Span, Status, Tally, span};
-pub(crate) use work::Kept;
-use work::Work;
 
 /// The plane that is asked about.
 pub(super) struct Plane {
@@ -127,43 +124,68 @@ pub(super) fn need_people(study: &Study, command: &str) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What a command does with the cells of its plane.
-pub(super) trait Gather: Send {
-    /// Called once for each pixel, in their order.
-    fn cell(&mut self, pixel: usize, cell: Cell);
+/// Model and start of a pixel.
+pub(super) type Begun = Result<(Model, Point), ModelError>;
+
+/// The cells of a plane, as work that can be cut.
+pub(super) struct Pixels<'a, F> {
+    pub(super) command: &'static str,
+    pub(super) study: &'a Study,
+    pub(super) plane: Plane,
+    /// Model and start at values (x, y).
+    pub(super) start_at: F,
 }
 
-/// Computes the plane, or what is missing of it, and hands it cell by cell to `gather`. The pieces kept until
-/// then are there until somebody removes them.
-pub(super) fn run<G: Gather, F>(
-    (command, study, plane): (&str, &Study, &Plane),
-    context: &Context,
-    start_at: F,
-    gather: &mut G,
-) -> Result<Kept, Failure>
+impl<F> Job for Pixels<'_, F>
 where
-    F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
+    F: Fn(f64, f64) -> Begun + Sync,
 {
-    let control = context.control(study);
-    let mut work = Work::open(context, command, study, plane, gather)?;
-    let done = Arc::new(AtomicU64::new(work.kept() as u64));
-    let missing = work.missing();
-    let compute = || {
-        let sink = |pixel: usize, found: Found| {
-            done.fetch_add(1, Ordering::Relaxed);
-            work.put(pixel, Cell::from(found))
+    type Item = Cell;
+    const LEAST: usize = 16;
+    const ITEMS: &'static str = "pixels";
+
+    fn command(&self) -> &'static str {
+        self.command
+    }
+
+    fn study(&self) -> &Study {
+        self.study
+    }
+
+    fn items(&self) -> usize {
+        self.plane.grid.len()
+    }
+
+    fn effort(&self, items: usize) -> (u64, &'static str) {
+        (items as u64, "pixels")
+    }
+
+    fn compute(&self, items: &[usize], control: &Control, sink: Sink<Cell>) -> Result<(), Failure> {
+        // counts periods, of which nobody knows how many there will be
+        let uncounted = Control {
+            done: Arc::default(),
+            ..control.clone()
         };
-        let pixels = missing.into_iter().flatten();
-        saltus::study::attractors(pixels, start_at, &plane.search, &control, sink)
-    };
-    let total = plane.grid.len() as u64;
-    let computed = context
-        .follow(total, "pixels", &done, compute)
-        .and_then(|()| work.hand_on());
-    let kept = work.close();
-    match computed.and_then(|()| context.check()) {
-        Ok(()) => Ok(kept),
-        Err(Failure::Interrupted) => Err(kept.suspended()),
-        Err(failure) => Err(failure),
+        let Plane { grid, search, .. } = &self.plane;
+        let pixels = items.iter().copied();
+        saltus::study::map(
+            grid,
+            pixels,
+            &self.start_at,
+            search,
+            &uncounted,
+            |pixel, found| {
+                control.done.fetch_add(1, Ordering::Relaxed);
+                sink(pixel, found.into())
+            },
+        )
+    }
+
+    fn write(&self, cell: &Cell, out: &mut Writer) {
+        cell.write(out);
+    }
+
+    fn read(&self, _: usize, from: &mut Reader) -> Option<Cell> {
+        Cell::read(from)
     }
 }

@@ -2,16 +2,19 @@
 
 mod dataset;
 mod figures;
+mod job;
 mod report;
 mod summary;
 mod tables;
 
-use crate::context::Context;
+use crate::context::{Context, Found};
 use crate::failure::Failure;
 use crate::models::Models;
+use crate::pieces::{self, Divided, Kept};
 use crate::request::Answer;
 use crate::status;
 use crate::store::{self, Store};
+use job::Restarts;
 use report::Report;
 use saltus::hybrid::Status;
 use saltus::model::ModelError;
@@ -19,6 +22,7 @@ use saltus::orbits::Exponent;
 use saltus::study::{Control, Label, Pass, StudyError, Sweep, SweepRow};
 use saltus_config::{Direction, Parameter, Study, SweepTable};
 use std::io::{self, Write};
+use std::path::Path;
 
 /// Shown to those whose study has none.
 const EXAMPLE: &str = "\
@@ -42,6 +46,8 @@ struct Run {
     labels: Vec<Option<Label>>,
     /// Of each row as many as were asked for, or that one which its label took.
     exponents: Vec<Vec<Exponent>>,
+    /// The pieces of restarts.
+    kept: Option<Kept>,
 }
 
 /// Forcing periods that a label takes, roughly: most motions are on a cycle when their row ends.
@@ -49,15 +55,19 @@ const LABELLING: u64 = 50;
 
 pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
     let (table, parameter) = question(study)?;
-    let sweep = plan(study, table);
-    let control = context.control(study);
-    let models = Models::new(study, &[&parameter], control.options);
+    let models = Models::new(study, &[&parameter], study.options());
     refuse_if_too_many_exponents(table, &models)?;
-    let work = || measure(&sweep, table, &models, &control);
-    let total = periods(&sweep, table);
-    let (rows, labels, exponents) = context.follow(total, "periods, about", &control.done, work)?;
-    context.check()?;
-    refuse_if_all_failed(&rows)?;
+    let sweep = plan(study, table);
+    let ((rows, labels, exponents), mut kept) = match table.direction {
+        Direction::Restarts => restarts(&Restarts::new(study, table, &sweep, models), context)?,
+        _ => {
+            refuse_pieces_of_carried_states(table, context)?;
+            (carried(&sweep, table, &models, context)?, None)
+        }
+    };
+    if let Err(failure) = refuse_if_all_failed(&rows) {
+        return kept.as_mut().map_or(Ok(()), Kept::remove).and(Err(failure));
+    }
     Ok(Box::new(Run {
         study: study.clone(),
         table: table.clone(),
@@ -66,7 +76,65 @@ pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, F
         rows,
         labels,
         exponents,
+        kept,
     }))
+}
+
+/// The sweep as work that can be cut.
+pub(crate) fn divided(study: &Study) -> Result<Box<dyn Divided + '_>, Failure> {
+    let (table, parameter) = question(study)?;
+    if table.direction != Direction::Restarts {
+        return Err(indivisible(table));
+    }
+    let models = Models::new(study, &[&parameter], study.options());
+    refuse_if_too_many_exponents(table, &models)?;
+    let sweep = plan(study, table);
+    Ok(Box::new(Restarts::new(study, table, &sweep, models)))
+}
+
+/// Each value anew, in pieces.
+fn restarts(job: &Restarts, context: &Context) -> Result<(Measured, Option<Kept>), Failure> {
+    let mut all = Measured::default();
+    let kept = pieces::run(job, context, &mut |_, (row, label, exponents)| {
+        all.0.push(row);
+        all.1.push(label);
+        all.2.push(exponents);
+    })?;
+    Ok((all, Some(kept)))
+}
+
+/// Each value from the last state of the one before.
+fn carried(
+    sweep: &Sweep,
+    table: &SweepTable,
+    models: &Models,
+    context: &Context,
+) -> Result<Measured, Failure> {
+    let control = context.control(models.study());
+    let total = (sweep.values.len() * sweep.passes.len()) as u64 * periods(table);
+    let work = || measure(std::slice::from_ref(sweep), table, models, &control);
+    let measured = context.follow(total, PERIODS, &control.done, work)?;
+    context.check()?;
+    Ok(measured)
+}
+
+/// Only restarts leave pieces, so there are none to go on with.
+fn refuse_pieces_of_carried_states(table: &SweepTable, context: &Context) -> Result<(), Failure> {
+    match &context.keep {
+        Some(keep) if keep.found != Found::InTheWay => Err(indivisible(table)),
+        _ => Ok(()),
+    }
+}
+
+/// Work that has no pieces.
+fn indivisible(table: &SweepTable) -> Failure {
+    let direction = serde_json::to_value(table.direction).unwrap_or_default();
+    Failure::refused(
+        format!(
+            "sweep.direction = {direction} goes on from value to value, so it cannot be cut into pieces"
+        ),
+        "take each value anew, with sweep.direction = \"restarts\"",
+    )
 }
 
 /// What is asked, or what is missing in the question.
@@ -138,27 +206,33 @@ fn refuse_if_too_many_exponents(table: &SweepTable, models: &Models) -> Result<(
         .map_err(|error| ModelError::from(error).into())
 }
 
-/// About how many forcing periods it takes in all.
-fn periods(sweep: &Sweep, table: &SweepTable) -> u64 {
-    let rows = (sweep.values.len() * sweep.passes.len()) as u64;
+/// In which progress is counted.
+const PERIODS: &str = "periods, about";
+
+/// About how many of them a value takes.
+fn periods(table: &SweepTable) -> u64 {
     let followed = match table.exponents {
         0 => 0,
         _ => table.exponent_periods.into(),
     };
-    sweep.periods() + rows * (LABELLING + followed)
+    u64::from(table.transient) + u64::from(table.record) + LABELLING + followed
 }
 
 type Measured = (Vec<SweepRow>, Vec<Option<Label>>, Vec<Vec<Exponent>>);
 
 /// The rows, what each is, and its exponents.
 fn measure(
-    sweep: &Sweep,
+    sweeps: &[Sweep],
     table: &SweepTable,
     models: &Models,
     control: &Control,
 ) -> Result<Measured, StudyError> {
     let model_at = |value| models.at(&[value]);
-    let rows = saltus::study::sweep(sweep, model_at, control)?;
+    let sweeps: Vec<_> = sweeps
+        .iter()
+        .map(|sweep| (sweep.clone(), model_at))
+        .collect();
+    let rows = saltus::study::sweep_many(&sweeps, control)?.concat();
     let labels = saltus::study::labels(&rows, model_at, control)?;
     let exponents = match table.exponents as usize {
         0 => {
@@ -213,6 +287,14 @@ impl Answer for Run {
             store.figure("exponents", &figures::exponents(self, &report))?;
         }
         Ok(())
+    }
+
+    fn pieces(&self) -> Option<&Path> {
+        self.kept.as_ref().and_then(Kept::path)
+    }
+
+    fn stored(&mut self) -> Result<(), Failure> {
+        self.kept.as_mut().map_or(Ok(()), Kept::remove)
     }
 }
 

@@ -5,14 +5,53 @@
 //! fingerprint (u32); number of the piece (u32); CRC-32 of the 20 bytes so far and the content (u32);
 //! length of the content (u64); the content. CRC-32 is that of PNG and zlib.
 
+use super::work::text_of;
+
+/// What is written into the header of every piece of one work, and looked for in those that come back.
+///
+/// A [`PieceStore`](super::PieceStore) seals what it keeps; where pieces travel in memory, their owner does.
+///
+/// ```
+/// let seal = saltus_results::Seal::of(&[("study", "5f3a9c")]);
+/// let bytes = seal.close(7, b"content");
+/// assert_eq!(seal.open(7, &bytes), Ok(&b"content"[..]));
+/// assert_eq!(seal.open(8, &bytes), Err("it is piece 7".to_owned()));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Seal(u32);
+
+impl Seal {
+    /// Of the work that these names and values describe.
+    pub fn of(fingerprint: &[(&str, &str)]) -> Self {
+        Self(crc(&[&text_of(fingerprint)]))
+    }
+
+    /// The bytes of piece `number`, as in its file.
+    pub fn close(self, number: u32, content: &[u8]) -> Vec<u8> {
+        [&self.header(number, content), content].concat()
+    }
+
+    /// The content of `bytes`, if they are piece `number` as it was made.
+    ///
+    /// # Errors
+    /// What is wrong with them, in words.
+    pub fn open(self, number: u32, bytes: &[u8]) -> Result<&[u8], String> {
+        problem(self.0, number, bytes).map_or(Ok(&bytes[HEADER..]), Err)
+    }
+
+    /// The 32 bytes before the content; see the module for their meaning.
+    pub(super) fn header(self, number: u32, content: &[u8]) -> Vec<u8> {
+        header(self.0, number, content)
+    }
+}
+
 /// Version of the format; pieces of another version are not read.
 pub(super) const FORMAT: u32 = 1;
 const MAGIC: &[u8; 8] = b"saltuspc";
 /// Bytes before the content.
-pub(super) const HEADER: usize = 32;
+const HEADER: usize = 32;
 
-/// The 32 bytes before the content; see the module for their meaning.
-pub(super) fn header(fingerprint: u32, number: u32, content: &[u8]) -> Vec<u8> {
+fn header(fingerprint: u32, number: u32, content: &[u8]) -> Vec<u8> {
     let mut header = Vec::with_capacity(HEADER);
     header.extend(MAGIC);
     for word in [FORMAT, fingerprint, number] {
@@ -24,7 +63,7 @@ pub(super) fn header(fingerprint: u32, number: u32, content: &[u8]) -> Vec<u8> {
 }
 
 /// What is wrong with the file of piece `number`, if anything.
-pub(super) fn problem(fingerprint: u32, number: u32, bytes: &[u8]) -> Option<String> {
+fn problem(fingerprint: u32, number: u32, bytes: &[u8]) -> Option<String> {
     let Some((header, content)) = bytes.split_at_checked(HEADER) else {
         return Some(format!("{} bytes, less than its header", bytes.len()));
     };
@@ -48,7 +87,7 @@ pub(super) fn problem(fingerprint: u32, number: u32, bytes: &[u8]) -> Option<Str
 }
 
 /// CRC-32 of the parts, one after the other.
-pub(super) fn crc(parts: &[&[u8]]) -> u32 {
+fn crc(parts: &[&[u8]]) -> u32 {
     let mut hasher = crc32fast::Hasher::new();
     parts.iter().for_each(|part| hasher.update(part));
     hasher.finalize()

@@ -1,0 +1,139 @@
+"""Maps, basins and sweeps on many machines, by the workers of Dask.
+
+The work is cut into pieces, the same as those of ``saltus map --shard i/n``. Workers make them in any order; a
+piece that was lost with its worker is made again. The result has the same bits as on one machine: each piece says
+of itself whether it is whole and which work it belongs to, and one that does not is refused by its number.
+
+Needs ``distributed``, and saltus of the same version on every worker.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from saltus import _native
+from saltus._arguments import whole
+from saltus._progress import Progress, watched
+from saltus._results import Result
+from saltus.study import StudyLike, as_study
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from distributed import Client
+
+__all__ = ["basins", "map", "sweep"]
+
+#: Tasks per thread of the cluster, about: enough to even out costs, few enough for the scheduler.
+TASKS_PER_THREAD = 8
+
+
+def map(  # noqa: A001 (the word of the program)
+    study: StudyLike,
+    *,
+    client: Client,
+    tasks: int | None = None,
+    out: str | os.PathLike[str] | None = None,
+    progress: Progress = None,
+) -> Result:
+    """Long-term motion at each point of the plane of two parameters in ``study.map``.
+
+    Parameters
+    ----------
+    study : Study or path
+    client : distributed.Client
+        Whose workers compute. Each task takes one thread; give workers one thread per core.
+    tasks : int, optional
+        Into how many tasks the work is put; some 8 per thread of the cluster by default, and never more than
+        it has pieces.
+    out : path, optional
+        Folder to write on this machine, as :func:`saltus.map` does.
+    progress : bool or callable, optional
+        As for :func:`saltus.map`; what is counted are pieces.
+
+    Returns
+    -------
+    Result
+        The same bits as :func:`saltus.map` gives.
+    """
+    return _run({"command": "map"}, study, client, tasks, out, progress)
+
+
+def basins(
+    study: StudyLike,
+    *,
+    client: Client,
+    match: bool = False,
+    tasks: int | None = None,
+    out: str | os.PathLike[str] | None = None,
+    progress: Progress = None,
+) -> Result:
+    """Which long-term motion each first state leads to; see :func:`saltus.basins` and :func:`map`."""
+    request = {"command": "basins", "match": bool(match)}
+    return _run(request, study, client, tasks, out, progress)
+
+
+def sweep(
+    study: StudyLike,
+    *,
+    client: Client,
+    tasks: int | None = None,
+    out: str | os.PathLike[str] | None = None,
+    progress: Progress = None,
+) -> Result:
+    """Long-term motion along a parameter, each value anew from several starts.
+
+    ``study.sweep.direction`` must be ``"restarts"``: a state that is carried on is no work for many. See
+    :func:`saltus.sweep` and :func:`map`.
+    """
+    return _run({"command": "sweep"}, study, client, tasks, out, progress)
+
+
+def _run(
+    request: dict[str, Any],
+    study: StudyLike,
+    client: Client,
+    tasks: int | None,
+    out: str | os.PathLike[str] | None,
+    progress: Progress,
+) -> Result:
+    from distributed import as_completed
+
+    asked, about = json.dumps(request), as_study(study)._resolved[0]
+    pieces = _native.pieces(asked, about)
+    shares = _shares(pieces, _tasks(client, tasks))
+    # what is pure may be taken from an earlier run: a broken piece must not
+    futures = [client.submit(_compute, asked, about, share, pure=False) for share in shares]
+    made: list[tuple[int, bytes]] = []
+    try:
+        with watched(progress) as told:
+            for _, parts in as_completed(futures, with_results=True):
+                made += parts
+                if told is not None:
+                    told("pieces", len(made), pieces)
+            answer = _native.ask(
+                asked, about, out=None if out is None else Path(out), pieces=made, progress=told
+            )
+    finally:
+        client.cancel(futures)
+    return Result(answer)
+
+
+def _tasks(client: Client, tasks: int | None) -> int:
+    if tasks is not None:
+        return whole("tasks", tasks, 1)
+    return TASKS_PER_THREAD * max(1, sum(client.nthreads().values()))
+
+
+def _shares(pieces: int, tasks: int) -> list[list[int]]:
+    """Every so many-th piece: neighbours in a plane cost alike, so costs even out."""
+    tasks = min(tasks, pieces)
+    return [list(range(first, pieces, tasks)) for first in range(tasks)]
+
+
+def _compute(request: str, study: str, pieces: Sequence[int]) -> list[tuple[int, bytes]]:
+    """Run on a worker, which has one thread for it."""
+    return _native.compute(request, study, pieces, threads=1)
