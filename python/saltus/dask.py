@@ -126,7 +126,8 @@ def _run(
 def _tasks(client: Client, tasks: int | None) -> int:
     if tasks is not None:
         return whole("tasks", tasks, 1)
-    return TASKS_PER_THREAD * max(1, sum(client.nthreads().values()))
+    threads: int = sum(client.nthreads().values())
+    return TASKS_PER_THREAD * max(1, threads)
 
 
 def _shares(pieces: int, tasks: int) -> list[list[int]]:
