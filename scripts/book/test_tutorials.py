@@ -35,6 +35,9 @@ class Tutorials(unittest.TestCase):
         fault = self.run_page("```python\nprint(1)\n```\n\n```text,output\n2\n```\n")
         self.assertTrue(fault.startswith("page.md:5:"), fault)
 
+    def test_blank_lines_at_the_end_make_no_difference(self):
+        self.assertIsNone(self.run_page("```python\nprint('a \\n\\n')\n```\n```text,output\na\n```\n"))
+
     def test_dots_stand_for_anything(self):
         shown = "```console\n$ printf 'a 1.234 b\\nc\\nd\\n'\na 1.2... b\n...\nd\n```\n"
         self.assertIsNone(self.run_page(shown))

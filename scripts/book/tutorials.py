@@ -7,8 +7,8 @@ Blocks that run, in the order of the page, in a folder of the page's own:
     ```text,output        what the block before it has printed
     ```toml,file=NAME     is written to the file NAME; so is any other block with `file=`
 
-What is printed is compared only where a page shows it, but for spaces at the ends of lines; `...` stands for
-anything. Words after the language, with commas between them:
+What is printed is compared only where a page shows it, but for spaces at the ends of lines and blank lines at the end;
+`...` stands for anything. Words after the language, with commas between them:
 
     no-run                the block is only shown
     fails                 the block must fail: an exit status other than 0, or an exception
@@ -76,7 +76,9 @@ def blocks(text: str) -> list[Block]:
 
 def agrees(expected: str, printed: str) -> bool:
     """Whether `printed` is what a page shows."""
-    expected, printed = ("".join(f"{line.rstrip()}\n" for line in text.splitlines()) for text in (expected, printed))
+    expected, printed = (
+        "\n".join(line.rstrip() for line in text.splitlines()).rstrip("\n") + "\n" for text in (expected, printed)
+    )
     return expected == printed or doctest.OutputChecker().check_output(expected, printed, doctest.ELLIPSIS)
 
 
