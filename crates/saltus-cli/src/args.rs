@@ -52,6 +52,12 @@ pub(crate) enum Command {
     /// All coexisting long-term motions, their basins and hysteresis while one parameter changes
     #[command(after_help = help::ATTRACTORS)]
     Attractors(WorkArgs),
+    /// Works that a result rests on, as BibTeX
+    #[command(after_help = help::CITE)]
+    Cite(CiteArgs),
+    /// Compute a result again and say whether it comes out the same
+    #[command(after_help = help::RERUN)]
+    Rerun(RerunArgs),
 }
 
 /// The study a command works on.
@@ -78,6 +84,9 @@ pub(crate) struct OutputArgs {
     /// Folder for data, figure and resolved study file; made if it is not there
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
+    /// Write each table as a Parquet file too, beside the CSV (needs a program built with them)
+    #[arg(long, requires = "out")]
+    pub(crate) parquet: bool,
     /// No progress and no summary, only what was asked for and errors
     #[arg(long, short)]
     pub(crate) quiet: bool,
@@ -172,6 +181,34 @@ pub(crate) struct ContinueArgs {
     /// Which orbit: the label of a special point, such as PD1
     #[arg(long, value_name = "LABEL", requires = "from")]
     pub(crate) at: Option<String>,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CiteArgs {
+    /// Folder that --out named, or a file in it
+    #[arg(value_name = "RESULT")]
+    pub(crate) result: PathBuf,
+    /// Print one JSON document instead
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct RerunArgs {
+    /// Folder that --out named, or a file in it
+    #[arg(value_name = "RESULT")]
+    pub(crate) result: PathBuf,
+    /// Folder to keep the new result in; without it only the comparison is left
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Print one JSON document to standard output and nothing else
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// No progress and no summary, only what was asked for and errors
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) threads: ThreadArgs,
 }
 
 #[derive(Debug, Args)]

@@ -363,6 +363,54 @@ Folder (--out):
 
 Results are the same bits for any --threads.";
 
+/// Below `saltus cite --help`.
+pub(crate) const CITE: &str = "\
+Each entry stands below a comment that says what it was used for. These are the
+methods that an answer to that question about that study rests on, and that may
+have been needed on the way. The version of saltus is the one that computed the
+result; the rest are the methods of this one.
+
+JSON (--json):
+  result             its folder
+  version_of_result  of the program that wrote it
+  citations          key, bibtex (the entry), why (what it was used for)
+  version
+
+A folder without a result, one of a newer format and one whose study was altered
+are refused with exit code 3.";
+
+/// Below `saltus rerun --help`.
+pub(crate) const RERUN: &str = "\
+The same is asked of the same study again, and file is compared with file. The
+new result is removed after that, unless --out says where to keep it. Results
+are the same bits on the same arithmetic, for any --threads; those of orbit,
+continue and reproduce agree to rounding with another number of threads.
+
+JSON (--json):
+  result             its folder
+  request            what was asked
+  identical          whether all files are the same to the bit
+  files              one per file of either result, the manifest last:
+    name             within the folder
+    outcome          \"identical\", \"missing\" or \"extra\" (now there, and not
+                     before), \"written_differently\" (same values),
+                     \"drawn_differently\" (a figure), \"other_bytes\" (and
+                     reason), \"different\":
+    differences      for each part that differs: part (variable of a dataset,
+                     else empty), compared and differing (values), absolute and
+                     relative (the largest of two numbers: difference, place,
+                     first and second; null if no numbers differ), first (the
+                     first that are not two numbers: place, first, second)
+  reasons            why the bits may differ: another version, other arithmetic,
+                     another number of threads, another result to begin at
+  kept               folder of the new result (--out); null if it was removed
+  version_of_result  of the program that wrote the result
+  version
+
+Exit code 0 means the same bits, 1 that there are differences, 3 that there is
+no result to compare with: a file is missing or was altered, or the earlier
+result of `continue --from` is not where it was.";
+
 #[cfg(test)]
 mod tests {
     #[test]
@@ -376,6 +424,8 @@ mod tests {
             super::CONTINUE,
             super::LYAPUNOV,
             super::ATTRACTORS,
+            super::CITE,
+            super::RERUN,
         ];
         for line in all.iter().flat_map(|h| h.lines()) {
             assert!(line.chars().count() <= 80, "{line}");

@@ -8,6 +8,7 @@ mod ending;
 mod help;
 mod init;
 mod interrupt;
+mod kept;
 mod output;
 mod progress;
 mod run;

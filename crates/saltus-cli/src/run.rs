@@ -6,7 +6,7 @@ use crate::args::{
 };
 use crate::ending::Ending;
 use crate::progress::Bars;
-use crate::{check, init, interrupt, output, schema};
+use crate::{check, init, interrupt, kept, output, schema};
 use saltus_commands::{
     Answer, Context, Failure, Folder, Found, Keep, Labelled, Place, Request, Shard,
 };
@@ -31,6 +31,8 @@ pub(crate) fn run(command: Command) -> Result<(), Ending> {
         Command::Continue(args) => continuation(&args),
         Command::Lyapunov(args) => work(&Request::Lyapunov, &args),
         Command::Attractors(args) => work(&Request::Attractors, &args),
+        Command::Cite(args) => kept::cite(&args),
+        Command::Rerun(args) => kept::rerun(&args),
     }
 }
 
@@ -99,6 +101,7 @@ fn reproduce(args: &ReproduceArgs) -> Result<(), Ending> {
     let output = OutputArgs {
         json: args.json,
         out: Some(args.out.clone()),
+        parquet: false,
         quiet: args.quiet,
     };
     let how = How {
@@ -135,8 +138,22 @@ impl How<'_> {
     /// Refused before a long computation, but staged after it: a killed one leaves nothing behind.
     fn try_out(&self, request: &Request, study: &Study, context: &Context) -> Result<(), Failure> {
         match &self.output.out {
-            Some(out) => Folder::stage(out, Some(request), study, context).map(drop),
+            Some(out) => self.stage(out, request, study, context).map(drop),
             None => Ok(()),
+        }
+    }
+
+    fn stage(
+        &self,
+        out: &Path,
+        request: &Request,
+        study: &Study,
+        context: &Context,
+    ) -> Result<Folder, Failure> {
+        let folder = Folder::stage(out, Some(request), study, context)?;
+        match self.output.parquet {
+            true => folder.with_parquet(),
+            false => Ok(folder),
         }
     }
 }
@@ -146,7 +163,8 @@ fn share(request: &Request, study: &Study, shard: Shard, how: &How) -> Result<()
     let bars = Bars::new(how.output.quiet);
     let context = how.context(&bars);
     how.try_out(request, study, &context)?;
-    tell(how.output, &request.share(study, shard, &context)?)
+    let share = request.share(study, shard, &context)?;
+    tell(how.output.json, how.output.quiet, &share)
 }
 
 /// Asks, writes the folder of results if one was asked for, and tells what was found.
@@ -157,22 +175,16 @@ fn answer(request: &Request, study: &Study, how: &How) -> Result<(), Ending> {
     how.try_out(request, study, &context)?;
     let mut answer = request.ask(study, &context)?;
     if let Some(out) = &how.output.out {
-        write(request, answer.as_ref(), study, out, &context)?;
+        let folder = how.stage(out, request, study, &context)?;
+        write(request, answer.as_ref(), folder)?;
     }
-    tell(how.output, answer.as_ref())?;
+    tell(how.output.json, how.output.quiet, answer.as_ref())?;
     let shortfall = answer.shortfall();
     answer.stored()?;
     shortfall.map_or(Ok(()), |failure| Err(failure.into()))
 }
 
-fn write(
-    request: &Request,
-    answer: &dyn Answer,
-    study: &Study,
-    out: &Path,
-    context: &Context,
-) -> Result<(), Failure> {
-    let mut folder = Folder::stage(out, Some(request), study, context)?;
+fn write(request: &Request, answer: &dyn Answer, mut folder: Folder) -> Result<(), Failure> {
     let written = answer
         .store(request, &mut folder)
         .and_then(|()| folder.commit());
@@ -186,8 +198,8 @@ fn write(
 }
 
 /// One document, or a text for people, or nothing, as asked.
-fn tell(args: &OutputArgs, answer: &dyn Answer) -> Result<(), Ending> {
-    match (args.json, args.quiet) {
+pub(crate) fn tell(json: bool, quiet: bool, answer: &dyn Answer) -> Result<(), Ending> {
+    match (json, quiet) {
         (true, _) => output::print_with(|stdout| answer.document(stdout)),
         (false, true) => Ok(()),
         (false, false) => output::print(&answer.summary()),

@@ -31,7 +31,7 @@ pub fn about(request: &Request, study: &Study) -> Value {
 }
 
 /// Whether orbits are solved for, which has a tolerance of its own.
-fn solves(request: &Request) -> bool {
+pub(crate) fn solves(request: &Request) -> bool {
     use Request::{Continue, Orbit, Reproduce};
     matches!(request, Orbit | Continue { .. } | Reproduce { .. })
 }

@@ -4,6 +4,7 @@ use crate::about::about;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::request::Request;
+use crate::twin::Twin;
 use saltus_config::Study;
 use saltus_results::{CsvTable, Dataset, Figure, ResultFolder, ResultsError, Value};
 use serde::Serialize;
@@ -93,6 +94,7 @@ pub(crate) fn stream_json(to: &mut dyn Write, document: &impl Serialize) -> io::
 pub struct Folder {
     inner: ResultFolder,
     stop: Arc<AtomicBool>,
+    parquet: bool,
 }
 
 impl Folder {
@@ -113,7 +115,28 @@ impl Folder {
         }
         inner.write("study.toml", study.to_toml())?;
         let stop = Arc::clone(&context.stop);
-        Ok(Self { inner, stop })
+        let parquet = false;
+        Ok(Self {
+            inner,
+            stop,
+            parquet,
+        })
+    }
+
+    /// Writes each table as a Parquet file too, beside the CSV.
+    ///
+    /// # Errors
+    /// [`Failure::Refused`] if this program was built without the feature `parquet`.
+    pub fn with_parquet(mut self) -> Result<Self, Failure> {
+        if !cfg!(feature = "parquet") {
+            return Err(Failure::refused(
+                "this saltus was built without Parquet files",
+                "`cargo install --path crates/saltus-cli --features parquet` builds it with them; in Python \
+                 `result.to_pandas().to_parquet(...)` writes them",
+            ));
+        }
+        self.parquet = true;
+        Ok(self)
     }
 
     /// Moves everything into place.
@@ -148,14 +171,17 @@ impl Store for Folder {
         rows: Rows,
     ) -> Result<(), Failure> {
         let header: Vec<&str> = header.iter().map(String::as_str).collect();
+        let mut twin = Twin::new(self.parquet, settings, &header);
         let fill = |file: &mut dyn Write| {
             let mut table = CsvTable::new(file, settings, &header).map_err(plain)?;
             for row in &mut *rows {
+                twin.row(&row).map_err(plain)?;
                 table.row(row).map_err(plain)?;
             }
             table.finish().map_err(plain).map(drop)
         };
-        Ok(self.inner.write_with(name, fill)?)
+        self.inner.write_with(name, fill)?;
+        Ok(twin.write(name, &mut self.inner)?)
     }
 
     fn put_figure(&mut self, name: &str, figure: &Figure) -> Result<(), Failure> {

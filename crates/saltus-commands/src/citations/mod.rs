@@ -3,11 +3,12 @@
 
 use crate::request::Request;
 use saltus_config::{Inertia, Method, Study};
+use serde::Serialize;
 
 const REFERENCES: &str = include_str!("references.bib");
 
 /// A work to be cited.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct Citation {
     /// Its key in BibTeX.
@@ -21,12 +22,23 @@ pub struct Citation {
 /// What an answer to `request` about `study` rests on: the program, the model, and the methods that were or may have
 /// been used on the way, in this order. `study` is what [`Request::study`] gives.
 pub fn citations(request: &Request, study: &Study) -> Vec<Citation> {
+    works(request, study, env!("CARGO_PKG_VERSION"))
+}
+
+/// As a file of BibTeX: before each entry stands what it was used for.
+pub fn bibtex(works: &[Citation]) -> String {
+    let entry = |work: &Citation| format!("% {}\n{}", work.why, work.bibtex);
+    works.iter().map(entry).collect::<Vec<_>>().join("\n")
+}
+
+/// As [`citations`], with the `version` of the program that gave the answer.
+pub(crate) fn works(request: &Request, study: &Study, version: &str) -> Vec<Citation> {
     let mut works: Vec<Citation> = Vec::new();
     for &(key, why) in methods(request, study).into_iter().flatten() {
         if works.iter().all(|known| known.key != key) {
             works.push(Citation {
                 key,
-                bibtex: entry(key),
+                bibtex: entry(key, version),
                 why,
             });
         }
@@ -120,15 +132,13 @@ fn solver(request: &Request, study: &Study) -> Vec<Uses> {
 }
 
 /// The entry of a key, which ends where the next one begins.
-fn entry(key: &str) -> String {
+fn entry(key: &str, version: &str) -> String {
     let has_key = |entry: &&str| {
         let rest = entry.split_once('{').map(|(_, rest)| rest);
         rest.is_some_and(|rest| rest.split(',').next() == Some(key))
     };
     let found = REFERENCES.split("\n\n").find(has_key).unwrap_or_default();
-    let entry = found
-        .trim_end()
-        .replace("VERSION", env!("CARGO_PKG_VERSION"));
+    let entry = found.trim_end().replace("VERSION", version);
     format!("{entry}\n")
 }
 

@@ -1,0 +1,50 @@
+//! What is done with a result that is there: `saltus cite` and `saltus rerun`.
+
+use crate::args::{CiteArgs, RerunArgs};
+use crate::ending::Ending;
+use crate::progress::Bars;
+use crate::run::tell;
+use crate::{interrupt, output};
+use saltus_commands::{Answer, Citation, Context, Kept, bibtex};
+use serde::Serialize;
+use std::path::Path;
+
+/// The JSON document of `cite`.
+#[derive(Serialize)]
+struct Works<'a> {
+    command: &'static str,
+    result: &'a Path,
+    version_of_result: &'a str,
+    citations: &'a [Citation],
+    version: &'static str,
+}
+
+pub(crate) fn cite(args: &CiteArgs) -> Result<(), Ending> {
+    let kept = Kept::open(&args.result)?;
+    let citations = kept.citations();
+    if !args.json {
+        return output::print(&bibtex(&citations));
+    }
+    output::print_json(&Works {
+        command: "cite",
+        result: kept.folder(),
+        version_of_result: kept.version(),
+        citations: &citations,
+        version: env!("CARGO_PKG_VERSION"),
+    })
+}
+
+pub(crate) fn rerun(args: &RerunArgs) -> Result<(), Ending> {
+    let bars = Bars::new(args.quiet);
+    let context = Context {
+        threads: args.threads.threads.map_or(0, usize::from),
+        stop: interrupt::flag(),
+        watch: &bars,
+        keep: None,
+    };
+    let rerun = Kept::open(&args.result)?.rerun(args.out.as_deref(), &context)?;
+    tell(args.json, args.quiet, &rerun)?;
+    rerun
+        .shortfall()
+        .map_or(Ok(()), |failure| Err(failure.into()))
+}

@@ -1,0 +1,137 @@
+//! A result that was kept in a folder: what was asked in it, whose methods it rests on, and whether it comes out again.
+
+mod rerun;
+
+pub use rerun::Rerun;
+
+use crate::citations::{Citation, works};
+use crate::failure::Failure;
+use crate::request::Request;
+use saltus_config::Study;
+use saltus_results::folder::MARKER;
+use saltus_results::manifest::sha256;
+use saltus_results::{Manifest, ResultsError};
+use serde::Deserialize;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Name of the study in the folder of a result.
+const STUDY: &str = "study.toml";
+
+/// Advice where a folder is not as it was.
+const AGAIN: &str = "put the files back as they were, or compute the result anew";
+
+/// A folder of results, read.
+#[derive(Debug)]
+pub struct Kept {
+    folder: PathBuf,
+    manifest: Manifest,
+    request: Request,
+    study: Study,
+}
+
+impl Kept {
+    /// Reads the manifest and the study of a result: `path` is its folder, or a file in that.
+    ///
+    /// # Errors
+    /// [`Failure::Results`] if there is no result, or its manifest cannot be read; [`Failure::Work`] if it is damaged,
+    /// the study in it was altered, or is not one of this version; [`Failure::Refused`] if no question was asked.
+    pub fn open(path: &Path) -> Result<Self, Failure> {
+        let folder = home(path);
+        let manifest = Manifest::read(&folder)?;
+        let shown = folder.display();
+        let asked = &manifest.about["request"];
+        if asked.is_null() {
+            return Err(Failure::refused(
+                format!("`{shown}` answers no question: it holds a study alone"),
+                "commands such as simulate and map write results by --out",
+            ));
+        }
+        let request = Request::deserialize(asked).map_err(|error| {
+            let version = &manifest.version;
+            Failure::work(
+                format!("what was asked in `{shown}` by saltus {version} cannot be read: {error}"),
+                "the version that wrote it can",
+            )
+        })?;
+        let study = study(&folder, &manifest)?;
+        Ok(Self {
+            folder,
+            manifest,
+            request,
+            study,
+        })
+    }
+
+    /// What the result rests on. Methods are those of this version, which may not be the one that wrote it.
+    pub fn citations(&self) -> Vec<Citation> {
+        works(&self.request, &self.study, &self.manifest.version)
+    }
+
+    /// Its folder.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Version of the program that wrote it.
+    pub fn version(&self) -> &str {
+        &self.manifest.version
+    }
+
+    /// Whether all files are as they were written.
+    fn intact(&self) -> Result<(), Failure> {
+        let problems = self.manifest.verify(&self.folder);
+        if problems.is_empty() {
+            return Ok(());
+        }
+        let list: String = problems.iter().map(|p| format!("\n  {p}")).collect();
+        let shown = self.folder.display();
+        Err(Failure::work(
+            format!(
+                "`{shown}` is not as it was written, so comparing with it means nothing:{list}"
+            ),
+            AGAIN,
+        ))
+    }
+}
+
+/// The folder of a result by the name of it or of a file in it.
+fn home(path: &Path) -> PathBuf {
+    let mut above = path.ancestors().skip(1).filter(|_| path.is_file());
+    match above.find(|folder| folder.join(MARKER).is_file()) {
+        Some(here) if here.as_os_str().is_empty() => PathBuf::from("."),
+        Some(folder) => folder.to_path_buf(),
+        None => path.to_path_buf(),
+    }
+}
+
+/// The study of a result, if it is still that: another comment does no harm, another number does.
+fn study(folder: &Path, manifest: &Manifest) -> Result<Study, Failure> {
+    let path = folder.join(STUDY);
+    let bytes = fs::read(&path).map_err(|source| ResultsError::Io {
+        action: "read",
+        path: path.clone(),
+        source,
+    })?;
+    let mut records = manifest.files.iter().filter(|file| file.name == STUDY);
+    let same_bits = records.any(|record| record.sha256 == sha256(&bytes));
+    let study = saltus_config::read(&path.display().to_string(), &bytes[..], &[]);
+    match study {
+        Ok(study) if same_bits || manifest.about["study_sha256"] == study.hash() => Ok(study),
+        Err(error) if same_bits => Err(Failure::work(
+            format!(
+                "`{}`, by saltus {}, is no study of this version: {error}",
+                path.display(),
+                manifest.version
+            ),
+            "the version that wrote it reads it",
+        )),
+        _ => Err(Failure::work(
+            format!(
+                "`{}` was altered: it is not the study of this result",
+                path.display()
+            ),
+            AGAIN,
+        )),
+    }
+}
