@@ -7,7 +7,6 @@ import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -116,8 +115,14 @@ class Figure:
             case other:
                 raise ValueError(f"path ends in {other!r}: .svg or .png is needed")
 
-    def _repr_png_(self) -> bytes:
-        return self.png()
+    def _repr_mimebundle_(
+        self, include: object = None, exclude: object = None
+    ) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Show it as large as its SVG, with the pixels of a fine screen."""
+        png = self.png()
+        width, height = (int.from_bytes(png[at : at + 4], "big") / SCALE for at in (16, 20))
+        size = {"width": round(width), "height": round(height)}
+        return {"text/plain": repr(self), "image/png": png}, {"image/png": size}
 
     def __repr__(self) -> str:
         """Return the name."""
@@ -146,7 +151,7 @@ class Result(Mapping[str, NDArray[Any]]):
     @property
     def summary(self) -> str:
         """What was found, in words."""
-        return self._answer.summary()
+        return self._answer.summary().rstrip()
 
     @cached_property
     def report(self) -> dict[str, Any]:
@@ -258,7 +263,7 @@ class Result(Mapping[str, NDArray[Any]]):
 
     def __repr__(self) -> str:
         """Return the summary, and the arrays with their axes."""
-        lines = [f"<saltus.Result of {self.command}>", self.summary.rstrip(), "Arrays:"]
+        lines = [f"<saltus.Result of {self.command}>", self.summary, "Arrays:"]
         for variable in self.variables.values():
             axes = ", ".join(
                 f"{dim}: {length}"
@@ -270,11 +275,14 @@ class Result(Mapping[str, NDArray[Any]]):
             lines.append(f"    {variable.name:<20} ({axes})  {what}")
         return "\n".join(lines)
 
-    def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, Any]:
-        bundle: dict[str, Any] = {"text/plain": repr(self)}
+    def _repr_mimebundle_(
+        self, include: object = None, exclude: object = None
+    ) -> tuple[dict[str, Any], dict[str, Any]]:
+        text = {"text/plain": repr(self)}
         for figure in self.figures.values():
-            return bundle | {"image/png": figure.png()}
-        return bundle | {"text/html": f"<pre>{escape(repr(self))}</pre>"}
+            shown, size = figure._repr_mimebundle_()
+            return shown | text, size
+        return text, {}
 
 
 def _stem(name: str) -> str:

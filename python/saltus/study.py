@@ -130,7 +130,7 @@ class Study:
 
     def __str__(self) -> str:
         """Return what the study describes, line by line."""
-        return _native.describe(self._resolved[0])[0]
+        return _native.describe(self._resolved[0])[0].rstrip()
 
     def __repr__(self) -> str:
         """Return the tables that are there."""

@@ -87,7 +87,9 @@ def test_tables_figures_and_documents_are_those_of_the_folder(study: Study, tmp_
     frame = result.to_pandas("section")
     assert list(frame["z"]) == list(result["z"][:, 0])
     assert result.report["version"] == saltus.__version__
-    assert "image/png" in result._repr_mimebundle_()
+    shown, size = result._repr_mimebundle_()
+    assert shown["image/png"] == result.figures["portrait"].png()
+    assert f'width="{size["image/png"]["width"]}' in result.figures["portrait"].svg
     assert "periods" in repr(result)
 
 

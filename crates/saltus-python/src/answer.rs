@@ -117,7 +117,7 @@ pub(crate) fn compute(
 
 fn question(request: &str, study: &str) -> PyResult<(Request, Study)> {
     let request: Request = serde_json::from_str(request).map_err(error::of_definition)?;
-    let study = Study::from_json(study, &[]).map_err(|problem| error::of_study(&problem))?;
+    let study = Study::from_json(study, &[]).map_err(|problem| error::of_study(&problem, &[]))?;
     Ok((request, study))
 }
 

@@ -20,7 +20,7 @@ pub(crate) fn of(failure: &Failure) -> PyErr {
         None => failure.to_string(),
     };
     match failure {
-        Failure::Study(problem) => of_study(problem),
+        Failure::Study(problem) => of_study(problem, &[]),
         Failure::Lost(reason) => of(reason),
         Failure::Refused { help, .. } => {
             StudyError::new_err((text, None::<String>, help.clone(), None::<usize>))
@@ -36,22 +36,27 @@ pub(crate) fn of(failure: &Failure) -> PyErr {
 }
 
 /// A study's problem with the key, what would be right, and the line; further ones follow in the text.
-pub(crate) fn of_study(problem: &Problem) -> PyErr {
-    let mut text = sentence(problem);
+///
+/// A message about an override begins with the option of the program; here it was an argument.
+pub(crate) fn of_study(problem: &Problem, overrides: &[String]) -> PyErr {
+    let mut text = sentence(problem, overrides);
     for other in problem.others() {
         text.push('\n');
-        text.push_str(&sentence(other));
+        text.push_str(&sentence(other, overrides));
     }
     let key = problem.key().map(str::to_owned);
     let advice = problem.advice().map(str::to_owned);
     StudyError::new_err((text, key, advice, problem.line()))
 }
 
-fn sentence(problem: &Problem) -> String {
+fn sentence(problem: &Problem, overrides: &[String]) -> String {
+    let said = problem.to_string();
+    let option = |set: &String| said.strip_prefix(&format!("--set {set}: "));
+    let said = overrides.iter().find_map(option).unwrap_or(&said);
     let line = problem.line().map(|line| format!("line {line}: "));
     let advice = problem.advice().map(|advice| format!(" ({advice})"));
     format!(
-        "{}{problem}{}",
+        "{}{said}{}",
         line.unwrap_or_default(),
         advice.unwrap_or_default()
     )

@@ -28,7 +28,8 @@ class Exponents:
     Attributes
     ----------
     exponents : ndarray of float, shape (..., count)
-        Mean growth per unit of time (natural logarithm), the largest first but for their errors.
+        Mean growth per unit of time (natural logarithm), the largest first but for their errors;
+        NaN for a trajectory that ended early.
     standard_errors : ndarray of float, shape (..., count)
         Their standard errors, from batches; infinite for fewer than 20 periods.
     dimension : ndarray of float, shape (...)
@@ -102,11 +103,19 @@ def lyapunov(
             progress=show,
         )
     shape = members.shape
+    status = words([word for word, _ in raw.status], shape)
+    whole_record = status == "completed"
+
+    def told(values: NDArray[np.float64], *last: int) -> NDArray[np.float64]:
+        """NaN where there is no record of the whole time to tell it from."""
+        seen = whole_record.reshape(*shape, *(1 for _ in last))
+        return np.where(seen, values.reshape(*shape, *last), np.nan)
+
     return Exponents(
-        exponents=raw.exponents.reshape(*shape, some),
-        standard_errors=raw.standard_errors.reshape(*shape, some),
-        dimension=raw.dimension.reshape(shape),
-        dimension_error=raw.dimension_error.reshape(shape),
-        status=words([word for word, _ in raw.status], shape),
+        exponents=told(raw.exponents, some),
+        standard_errors=told(raw.standard_errors, some),
+        dimension=told(raw.dimension),
+        dimension_error=told(raw.dimension_error),
+        status=status,
         reason=words([sentence for _, sentence in raw.status], shape),
     )
