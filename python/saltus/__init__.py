@@ -1,7 +1,8 @@
 """People who jump on a vibrating plate: what their motion can do in the long run.
 
-A study (`Study`) says which plate, people and base, and what is asked; a function for each question gives a
-`Result` with NumPy arrays, tables and figures. ``saltus.systems`` takes systems of one's own.
+A study (`Study`) says which plate, people and base, and what is asked; a function for each
+question gives a `Result` with NumPy arrays, tables and figures. ``saltus.systems`` takes systems
+of one's own, ``saltus.dask`` spreads long work over many machines.
 
 Examples
 --------

@@ -1,4 +1,4 @@
-"""The questions: each takes a study and gives a result. What is asked stands in the study, as for the program."""
+"""The questions: each takes a study, in which stands what is asked, and gives a result."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from saltus._tables import Axis, Basins, Map
 from saltus.study import Study, StudyLike, as_study
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    from saltus._tables import Numbers, Rows
 
 __all__ = [
     "attractors",
@@ -85,8 +85,8 @@ def simulate(
 def sweep(
     study: StudyLike,
     *,
-    values: ArrayLike | None = None,
-    starts: ArrayLike | None = None,
+    values: Numbers | None = None,
+    starts: Rows | None = None,
     out: Path_ | None = None,
     resume: bool = False,
     threads: int | None = None,
@@ -126,8 +126,8 @@ def sweep(
 def map(  # noqa: A001 (the word of the program)
     study: StudyLike,
     *,
-    x: ArrayLike | None = None,
-    y: ArrayLike | None = None,
+    x: Numbers | None = None,
+    y: Numbers | None = None,
     out: Path_ | None = None,
     resume: bool = False,
     threads: int | None = None,
@@ -153,17 +153,15 @@ def map(  # noqa: A001 (the word of the program)
     study = as_study(study)
     if x is not None or y is not None:
         table: Map = _needed(study, "map")
-        study = study.replace(
-            map=dataclasses.replace(table, x=_axis(table.x, x), y=_axis(table.y, y))
-        )
+        study = study.replace(map=dataclasses.replace(table, x=_axis(table.x, x), y=_axis(table.y, y)))
     return _ask({"command": "map"}, study, out, threads, progress, resume=resume)
 
 
 def basins(
     study: StudyLike,
     *,
-    z: ArrayLike | None = None,
-    v: ArrayLike | None = None,
+    z: Numbers | None = None,
+    v: Numbers | None = None,
     match: bool = False,
     out: Path_ | None = None,
     resume: bool = False,
@@ -176,8 +174,8 @@ def basins(
     ----------
     study : Study or path
     z, v : array_like, shapes (nz,) and (nv,), optional
-        First heights z/eta and velocities z'/(eta omega_h), rising or falling; all pairs of them are run.
-        In place of the axes of ``study.basins``, which need not be there if both are given.
+        First heights z/eta and velocities z'/(eta omega_h), rising or falling; all pairs of them are
+        run. In place of the axes of ``study.basins``, which need not be there if both are given.
     match : bool
         Number the attractors as along the sweep of ``study.attractors``.
     out, threads, progress, resume
@@ -192,9 +190,7 @@ def basins(
     if z is not None or v is not None:
         table = study.basins
         if table is None and z is not None and v is not None:
-            new = Basins(
-                x=Axis(parameter="start.z", values=z), y=Axis(parameter="start.v", values=v)
-            )
+            new = Basins(x=Axis(parameter="start.z", values=z), y=Axis(parameter="start.v", values=v))
             study = study.replace(basins=new)
         else:
             table = _needed(study, "basins")
@@ -212,7 +208,7 @@ def orbit(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Result:
-    """Find the periodic orbit near the long-term motion, stable or not, with its Floquet multipliers.
+    """Find the periodic orbit near the long-term motion, stable or not, with its multipliers.
 
     Parameters are as in :func:`simulate`.
 
@@ -239,8 +235,8 @@ def continue_(
     ----------
     study : Study or path
     origin, at : path and str, optional
-        Begin at the special point labelled `at` (such as ``"PD1"``) of an earlier result in the folder
-        `origin` instead of at ``study.start``. Both or none.
+        Begin at the special point labelled `at` (such as ``"PD1"``) of an earlier result in the
+        folder `origin` instead of at ``study.start``. Both or none.
     out, threads, progress
         As in :func:`simulate`.
     """
@@ -340,7 +336,7 @@ def _native_error(message: str, key: str) -> Exception:
     return StudyError(f"{message} ({help_})", key, help_)
 
 
-def _axis(axis: Axis, values: ArrayLike | None) -> Axis:
+def _axis(axis: Axis, values: Numbers | None) -> Axis:
     if values is None:
         return axis
     return dataclasses.replace(axis, values=values, from_=None, to=None, count=None)

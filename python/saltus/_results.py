@@ -200,7 +200,7 @@ class Result(Mapping[str, NDArray[Any]]):
         return len(self.variables)
 
     def to_xarray(self) -> xarray.Dataset:
-        """Return the dataset that the program writes as NetCDF: the same bits, axes, units and attributes."""
+        """Return the dataset that the program writes as NetCDF, with all that it says."""
         import xarray
 
         def array(variable: Variable) -> xarray.Variable:
@@ -234,13 +234,13 @@ class Result(Mapping[str, NDArray[Any]]):
         return self.tables[name].to_pandas()
 
     def save(self, out: str | os.PathLike[str]) -> Path:
-        """Write the folder that the program writes with ``--out``: the same bytes, whole or not at all."""
+        """Write the folder that the program writes: the same bytes, whole or not at all."""
         out = Path(out)
         self._answer.save(out)
         return out
 
     @cached_property
-    def _parts(self) -> _native.Parts:
+    def _parts(self) -> _native._Parts:
         return self._answer.parts()
 
     @cached_property

@@ -1,8 +1,9 @@
 """Maps, basins and sweeps on many machines, by the workers of Dask.
 
-The work is cut into pieces, the same as those of ``saltus map --shard i/n``. Workers make them in any order; a
-piece that was lost with its worker is made again. The result has the same bits as on one machine: each piece says
-of itself whether it is whole and which work it belongs to, and one that does not is refused by its number.
+The work is cut into pieces, the same as those of ``saltus map --shard i/n``. Workers make them in
+any order; a piece that was lost with its worker is made again. The result has the same bits as on
+one machine: each piece says of itself whether it is whole and which work it belongs to, and one that
+does not is refused by its number.
 
 Needs ``distributed``, and saltus of the same version on every worker.
 """
@@ -47,8 +48,8 @@ def map(  # noqa: A001 (the word of the program)
     client : distributed.Client
         Whose workers compute. Each task takes one thread; give workers one thread per core.
     tasks : int, optional
-        Into how many tasks the work is put; some 8 per thread of the cluster by default, and never more than
-        it has pieces.
+        Into how many tasks the work is put; some 8 per thread of the cluster by default, and never
+        more than it has pieces.
     out : path, optional
         Folder to write on this machine, as :func:`saltus.map` does.
     progress : bool or callable, optional
@@ -125,7 +126,8 @@ def _run(
 def _tasks(client: Client, tasks: int | None) -> int:
     if tasks is not None:
         return whole("tasks", tasks, 1)
-    return TASKS_PER_THREAD * max(1, sum(client.nthreads().values()))
+    threads: int = sum(client.nthreads().values())
+    return TASKS_PER_THREAD * max(1, threads)
 
 
 def _shares(pieces: int, tasks: int) -> list[list[int]]:

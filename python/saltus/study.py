@@ -41,8 +41,9 @@ __all__ = ["Study", "StudyLike", "as_study"]
 class Study:
     """A plate, the people on it, the base that shakes it, and what is asked about them.
 
-    What is given is checked at once, as the program checks a study file; what is left out has the default that
-    its description tells. All of it can then be read off: a study in hand is valid, whole and never changes.
+    What is given is checked at once, as the program checks a study file; what is left out has the
+    default that its description tells. All of it can then be read off: a study in hand is valid,
+    whole and never changes.
 
     Any array-like serves where a list of numbers is needed.
 
@@ -85,9 +86,7 @@ class Study:
         return _of(_native.paper())
 
     @classmethod
-    def load(
-        cls, path: str | os.PathLike[str], changes: Mapping[str, object] | None = None
-    ) -> Study:
+    def load(cls, path: str | os.PathLike[str], changes: Mapping[str, object] | None = None) -> Study:
         """Read a study file, with changes as in :meth:`set`."""
         return _of(_native.load(Path(path), _overrides(changes)))
 

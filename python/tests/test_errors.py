@@ -11,12 +11,12 @@ from saltus import _native
 
 
 def test_the_papers_study_is_right() -> None:
-    _native.check_study("paper.toml", _native.paper_template(), [])
+    _native.parse("paper.toml", _native.paper_template(), [])
 
 
 def test_a_study_error_names_key_and_advice() -> None:
     with pytest.raises(saltus.StudyError) as caught:
-        _native.check_study("paper.toml", _native.paper_template(), ["jumper.masss=80"])
+        _native.parse("paper.toml", _native.paper_template(), ["jumper.masss=80"])
     error = caught.value
     assert isinstance(error, ValueError)
     assert error.key is not None
@@ -27,7 +27,7 @@ def test_a_study_error_names_key_and_advice() -> None:
 def test_a_study_error_names_the_line() -> None:
     text = _native.paper_template() + "\nnonsense = 3\n"
     with pytest.raises(saltus.StudyError) as caught:
-        _native.check_study("mine.toml", text, [])
+        _native.parse("mine.toml", text, [])
     assert caught.value.line is not None
     assert f"line {caught.value.line}" in str(caught.value)
 

@@ -148,10 +148,12 @@ impl ResultFolder {
         self.write(MARKER, manifest.to_text())?;
         if check_target(&self.target)? {
             self.move_files()?;
-        } else {
-            let content = self.content();
-            fs::rename(content, &self.target)
-                .map_err(ResultsError::io("create the folder", &self.target))?;
+        } else if let Err(error) = fs::rename(self.content(), &self.target) {
+            // somebody else's may have come first
+            if !check_target(&self.target)? {
+                return Err(ResultsError::io("create the folder", &self.target)(error));
+            }
+            self.move_files()?;
         }
         self.parents.clear();
         Ok(self.target.clone())
@@ -162,6 +164,9 @@ impl ResultFolder {
     }
 
     fn move_files(&self) -> Result<(), ResultsError> {
+        // Two that end at the same time must not leave a mixture. Where there are no locks they might, and the
+        // checksums of the manifest tell.
+        let _alone = File::open(&self.target).and_then(|dir| dir.lock().map(|()| dir));
         let mut files: Vec<&str> = self.files.iter().map(|file| file.name.as_str()).collect();
         files.sort_by_key(|&file| match file {
             MARKER => 0,

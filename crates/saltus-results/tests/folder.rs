@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use saltus_results::folder::{INDEX, MARKER};
-use saltus_results::{CsvTable, ResultFolder, ResultsError, write_file_atomically};
+use saltus_results::{CsvTable, Manifest, ResultFolder, ResultsError, write_file_atomically};
 use std::fs;
 use std::path::Path;
 
@@ -195,4 +195,26 @@ fn a_file_is_replaced_behind_its_link_and_readable_by_the_usual_people() {
     assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
     assert_eq!(fs::metadata(&file).unwrap().permissions().mode(), usual);
     assert_eq!(names(home.path()), ["file", "link"]);
+}
+
+#[test]
+fn of_two_writers_into_one_folder_the_last_is_there_whole() {
+    let home = tempfile::tempdir().unwrap();
+    for round in 0..20 {
+        let target = home.path().join(format!("results-{round}"));
+        let write = |text: &str| {
+            let mut folder = ResultFolder::stage(&target).unwrap();
+            for file in 0..30 {
+                folder.write(&format!("{file}.txt"), text).unwrap();
+            }
+            folder.commit().unwrap();
+        };
+        std::thread::scope(|scope| {
+            for text in ["one", "another"] {
+                scope.spawn(move || write(text));
+            }
+        });
+        let manifest = Manifest::read(&target).unwrap();
+        assert_eq!(manifest.verify(&target), []);
+    }
 }

@@ -176,12 +176,14 @@ fn complete(
     }
     // a run that was killed lacks what it had not come to; that is no news
     let shards = lacks.iter().any(|lack| lack.shard.is_some());
-    for lack in &lacks {
-        if shards || stock.damaged.contains_key(&lack.piece) {
-            let (piece, problem) = (lack.piece, &lack.problem);
+    for piece in lacks.iter().map(|lack| lack.piece) {
+        if let Some(problem) = stock.damaged.get(&piece) {
+            let note = format!("piece {piece} is damaged ({problem}) and is made again");
+            context.watch.note(&note);
+        } else if shards {
             context
                 .watch
-                .note(&format!("piece {piece} is made again: {problem}"));
+                .note(&format!("piece {piece} is missing and is made here"));
         }
     }
     Ok(())

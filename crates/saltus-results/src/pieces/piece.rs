@@ -36,7 +36,10 @@ impl Seal {
     /// # Errors
     /// What is wrong with them, in words.
     pub fn open(self, number: u32, bytes: &[u8]) -> Result<&[u8], String> {
-        problem(self.0, number, bytes).map_or(Ok(&bytes[HEADER..]), Err)
+        match problem(self.0, number, bytes) {
+            None => Ok(&bytes[HEADER..]),
+            Some(problem) => Err(problem),
+        }
     }
 
     /// The 32 bytes before the content; see the module for their meaning.
