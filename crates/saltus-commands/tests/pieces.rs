@@ -58,7 +58,7 @@ fn context(pieces: &Pieces, found: Found) -> Context<'static> {
 fn files(request: &Request, study: &Study, answer: &dyn Answer) -> BTreeMap<String, Vec<u8>> {
     let home = tempfile::tempdir().unwrap();
     let out = home.path().join("out");
-    let mut folder = Folder::stage(&out, study, &Context::default()).unwrap();
+    let mut folder = Folder::stage(&out, None, study, &Context::default()).unwrap();
     answer.store(request, &mut folder).unwrap();
     folder.commit().unwrap();
     let entries = fs::read_dir(out).unwrap().map(|entry| {
