@@ -33,6 +33,7 @@ from saltus._errors import (
     SaltusError,
     StudyError,
 )
+from saltus._kept import Rerun, cite, rerun
 from saltus._native import __version__
 from saltus._results import Figure, Result, Table, Variable
 from saltus._tables import (
@@ -75,6 +76,7 @@ __all__ = [
     "ModeLists",
     "Orbit",
     "Plate",
+    "Rerun",
     "Result",
     "ResultError",
     "SaltusError",
@@ -90,12 +92,14 @@ __all__ = [
     "__version__",
     "attractors",
     "basins",
+    "cite",
     "continue_",
     "frequencies",
     "lyapunov",
     "map",
     "orbit",
     "reproduce",
+    "rerun",
     "simulate",
     "sweep",
 ]

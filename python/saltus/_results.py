@@ -159,6 +159,10 @@ class Result(Mapping[str, NDArray[Any]]):
         report: dict[str, Any] = json.loads(self._answer.document())
         return report
 
+    def cite(self) -> str:
+        """Return the works that this rests on as BibTeX, each below what it was used for."""
+        return self._answer.cite()
+
     @property
     def shortfall(self) -> str | None:
         """Why this is not all that was asked for, as of a motion that ended early; else None."""

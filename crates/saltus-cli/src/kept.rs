@@ -7,13 +7,12 @@ use crate::run::tell;
 use crate::{interrupt, output};
 use saltus_commands::{Answer, Citation, Context, Kept, bibtex};
 use serde::Serialize;
-use std::path::Path;
 
 /// The JSON document of `cite`.
 #[derive(Serialize)]
 struct Works<'a> {
     command: &'static str,
-    result: &'a Path,
+    result: String,
     version_of_result: &'a str,
     citations: &'a [Citation],
     version: &'static str,
@@ -27,7 +26,7 @@ pub(crate) fn cite(args: &CiteArgs) -> Result<(), Ending> {
     }
     output::print_json(&Works {
         command: "cite",
-        result: kept.folder(),
+        result: kept.folder().display().to_string(),
         version_of_result: kept.version(),
         citations: &citations,
         version: env!("CARGO_PKG_VERSION"),

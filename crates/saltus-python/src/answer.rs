@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 use saltus_commands::{
     Answer as Answered, Context, Failure, Fill, Folder, Found, Keep, Place, Request, Rows, Store,
+    bibtex, citations,
 };
 use saltus_config::Study;
 use saltus_results::{Attribute, Column, Columns, Dataset, Figure as Drawing, Values, Variable};
@@ -174,6 +175,11 @@ impl Answer {
         let mut text = Vec::new();
         py.detach(|| self.found.document(&mut text))?;
         String::from_utf8(text).map_err(error::of_computation)
+    }
+
+    /// The works that it rests on, as BibTeX.
+    fn cite(&self) -> String {
+        bibtex(&citations(&self.request, &self.study))
     }
 
     /// Why it is not all that was asked for, if so.

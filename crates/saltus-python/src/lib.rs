@@ -4,6 +4,7 @@
 
 mod answer;
 mod error;
+mod kept;
 mod running;
 mod study;
 mod systems;
@@ -15,6 +16,8 @@ use pyo3::prelude::*;
 mod _native {
     #[pymodule_export]
     use crate::answer::{Answer, Figure, ask, compute, pieces, program};
+    #[pymodule_export]
+    use crate::kept::{cite, rerun};
     #[pymodule_export]
     use crate::running::{count, shut_down};
     #[pymodule_export]

@@ -142,7 +142,7 @@ impl fmt::Display for Outcome {
             Self::OtherBytes { reason } => write!(f, "other bytes ({reason})"),
             Self::Different { differences } => {
                 for (index, difference) in differences.iter().enumerate() {
-                    write!(f, "{}{difference}", if index > 0 { "; " } else { "" })?;
+                    write!(f, "{}{difference}", if index > 0 { ";\n  " } else { "" })?;
                 }
                 Ok(())
             }

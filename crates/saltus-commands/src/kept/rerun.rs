@@ -10,7 +10,7 @@ use saltus_results::{Comparison, compare};
 use serde::Serialize;
 use std::fs;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Name of the new result in its temporary folder.
 const RESULT: &str = "result";
@@ -22,7 +22,7 @@ pub struct Rerun {
     /// `rerun`.
     pub command: &'static str,
     /// Folder of the result.
-    pub result: PathBuf,
+    pub result: String,
     /// What was asked.
     pub request: Request,
     /// Whether all files are the same to the bit.
@@ -33,7 +33,7 @@ pub struct Rerun {
     /// Why they may differ; empty if they do not, or no reason is known.
     pub reasons: Vec<String>,
     /// Where the new result is; nothing if it was removed.
-    pub kept: Option<PathBuf>,
+    pub kept: Option<String>,
     /// Of the program that wrote the result.
     pub version_of_result: String,
     /// Of this program.
@@ -52,7 +52,7 @@ impl Kept {
         self.origin_is_there()?;
         let Some(out) = out else {
             let beside = beside(&self.folder)?;
-            return self.rerun_in(&beside.path().join(RESULT), None, context);
+            return self.rerun_in(&beside.path().join(RESULT), context);
         };
         let real = |path: &Path| fs::canonicalize(path).ok();
         if real(out).is_some_and(|out| Some(out) == real(&self.folder)) {
@@ -61,15 +61,12 @@ impl Kept {
                 "another folder, or none",
             ));
         }
-        self.rerun_in(out, Some(out.to_path_buf()), context)
+        let rerun = self.rerun_in(out, context)?;
+        let kept = Some(out.display().to_string());
+        Ok(Rerun { kept, ..rerun })
     }
 
-    fn rerun_in(
-        &self,
-        dir: &Path,
-        kept: Option<PathBuf>,
-        context: &Context,
-    ) -> Result<Rerun, Failure> {
+    fn rerun_in(&self, dir: &Path, context: &Context) -> Result<Rerun, Failure> {
         let request = &self.request;
         let study = request.study(&self.study)?;
         let stage = || {
@@ -89,12 +86,12 @@ impl Kept {
         let identical = comparison.identical();
         Ok(Rerun {
             command: "rerun",
-            result: self.folder.clone(),
+            result: self.folder.display().to_string(),
             request: request.clone(),
             identical,
             comparison,
             reasons: if identical { vec![] } else { self.reasons() },
-            kept,
+            kept: None,
             version_of_result: self.manifest.version.clone(),
             version: env!("CARGO_PKG_VERSION"),
         })
@@ -186,7 +183,7 @@ impl Answer for Rerun {
             version: now,
             ..
         } = self;
-        let (name, result) = (self.request.name(), self.result.display());
+        let (name, result) = (self.request.name(), &self.result);
         let mut text = format!("`{result}`: {name} by saltus {then}, again by saltus {now}\n");
         if self.identical {
             let count = self.comparison.files.len();
@@ -202,7 +199,7 @@ impl Answer for Rerun {
             }
         }
         if let Some(kept) = &self.kept {
-            text += &format!("The new result is in `{}`.\n", kept.display());
+            text += &format!("The new result is in `{kept}`.\n");
         }
         text
     }
@@ -216,8 +213,7 @@ impl Answer for Rerun {
     }
 
     fn shortfall(&self) -> Option<Failure> {
-        let result = self.result.display();
-        let message = format!("computed again, `{result}` is not the same bits");
+        let message = format!("computed again, `{}` is not the same bits", self.result);
         (!self.identical).then(|| Failure::computation(message))
     }
 }
