@@ -34,19 +34,21 @@ __all__ = [
 Path_ = str | os.PathLike[str]
 
 
-def frequencies(study: StudyLike) -> Result:
+def frequencies(study: StudyLike, *, out: Path_ | None = None) -> Result:
     """Natural frequencies (Hz): empty plate, in its plane, with the people on it.
 
     Parameters
     ----------
     study : Study or path
+    out : path, optional
+        Folder to write as the program does with ``--out``.
 
     Returns
     -------
     Result
         With ``plate``, ``occupied``, ``in_plane``, ``free``, ``body`` and ``base``.
     """
-    return _ask({"command": "frequencies"}, study)
+    return _ask({"command": "frequencies"}, study, out)
 
 
 def simulate(
