@@ -179,6 +179,17 @@ mod tests {
         );
     }
 
+    #[cfg(unix)]
+    #[test]
+    fn a_path_that_is_no_text_is_told_as_far_as_it_is() {
+        use std::os::unix::ffi::OsStringExt;
+        let from = std::ffi::OsString::from_vec(b"old\xff".to_vec()).into();
+        let at = "PD1".to_owned();
+        let origin = Some(crate::request::Labelled { from, at });
+        let told = about(&Request::Continue { origin }, &Study::paper());
+        assert_eq!(told["request"]["origin"]["from"], "old\u{fffd}");
+    }
+
     #[test]
     fn the_source_of_a_statement_exists() {
         let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");

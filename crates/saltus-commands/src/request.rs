@@ -8,7 +8,7 @@ use crate::{
     attractors, basins, continuation, frequencies, lyapunov, map, orbit, reproduce, simulate, sweep,
 };
 use saltus_config::Study;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -55,9 +55,15 @@ pub enum Request {
 #[serde(deny_unknown_fields)]
 pub struct Labelled {
     /// Folder of the result.
+    #[serde(serialize_with = "readable")]
     pub from: PathBuf,
     /// Label of a special point, such as `PD1`.
     pub at: String,
+}
+
+/// A path whose name is no text is written as far as it is one: a manifest must not fail for it.
+fn readable<S: Serializer>(path: &Path, to: S) -> Result<S::Ok, S::Error> {
+    to.collect_str(&path.display())
 }
 
 /// What was found.
