@@ -108,8 +108,8 @@ def lyapunov(
 
     def told(values: NDArray[np.float64], *last: int) -> NDArray[np.float64]:
         """NaN where there is no record of the whole time to tell it from."""
-        seen = whole_record.reshape(*shape, *(1 for _ in last))
-        return np.where(seen, values.reshape(*shape, *last), np.nan)
+        seen = whole_record.reshape((*shape, *(1 for _ in last)))
+        return np.where(seen, values.reshape((*shape, *last)), np.nan)
 
     return Exponents(
         exponents=told(raw.exponents, some),
