@@ -213,6 +213,7 @@ fn a_pixel_without_model_and_one_of_another_structure_are_answers_too() {
         record: 4,
         early_stop: true,
         exponent: 0,
+        ..Search::default()
     };
     let mut answers = vec![None; 4];
     attractors(0..4, start_at, &search, &Control::default(), |i, found| {

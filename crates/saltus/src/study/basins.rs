@@ -163,6 +163,7 @@ mod tests {
             v: vec![z.iter().map(|z| 2.0 * z).collect()],
             ranges: vec![(range, range)],
             rest,
+            multiplier: None,
             exponent: None,
             confidence: None,
         }

@@ -212,6 +212,7 @@ mod tests {
             v: vec![vec![0.0; heights.len()]],
             ranges: vec![([low, high], [low, high])],
             rest: 0.0,
+            multiplier: None,
             exponent: None,
             confidence: None,
         };

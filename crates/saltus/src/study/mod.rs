@@ -3,6 +3,7 @@
 mod attractor;
 mod basins;
 mod census;
+mod confirm;
 mod doubt;
 mod ensemble;
 mod exponents;
@@ -14,6 +15,7 @@ mod matching;
 mod orbits;
 pub mod paper;
 mod peaks;
+mod recording;
 mod recurrence;
 mod rows;
 mod second;
