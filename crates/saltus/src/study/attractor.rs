@@ -50,7 +50,7 @@ impl Default for Search {
             record: 64,
             early_stop: true,
             exponent: 2000,
-            watch: 600,
+            watch: 2000 / 3,
             confirm: false,
         }
     }
@@ -348,8 +348,9 @@ struct Pursuit<'a, F> {
     extended: bool,
 }
 
-/// Times the transient that a motion on its way gets.
+/// Times the transient that a motion on its way gets, and forcing periods at most.
 const PATIENCE: u64 = 4;
+const LONGEST: u64 = 4000;
 
 /// What is kept of a motion while it runs.
 struct Motion {
@@ -444,7 +445,7 @@ where
                     return Some(Leg {
                         system: motion.model.system().clone(),
                         start,
-                        periods: PATIENCE * self.search.transient,
+                        periods: (PATIENCE * self.search.transient).min(LONGEST),
                     });
                 }
                 Conclusion::GoOn(point) => {

@@ -229,6 +229,7 @@ mod tests {
                 },
                 section: vec![heights.iter().map(|&z| [z, 0.0]).collect()],
             },
+            survival: None,
         }
     }
 
