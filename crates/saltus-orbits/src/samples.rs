@@ -205,7 +205,11 @@ impl Samples {
             let block = BLOCK.max(*n);
             // most are refused by one comparison
             let near = self.kept() >= block + n && self.distance(0, *n) <= nearest;
-            let furthest = if near { self.largest(0, block, *n) } else { f64::INFINITY };
+            let furthest = if near {
+                self.largest(0, block, *n)
+            } else {
+                f64::INFINITY
+            };
             let nearer = furthest <= nearest;
             if nearer {
                 nearest = furthest;
@@ -442,7 +446,9 @@ mod tests {
         assert!(!narrowing(0.95 * WIDE).is_shortest(2, 0.0));
         assert!(narrowing(1.05 * WIDE).is_shortest(2, 0.0));
         let split = |width: f64| samples(200, |k| width * (k % 2.0)).settled(Closeness::TIGHT);
-        assert!(split(1.01 * WIDE).is_some_and(|found| found.is_sure() && found.split == 1.01 * WIDE));
+        assert!(
+            split(1.01 * WIDE).is_some_and(|found| found.is_sure() && found.split == 1.01 * WIDE)
+        );
         assert!(split(WIDE).is_some_and(|found| !found.is_sure()));
         assert!(tight(200, |_| 1.0).is_some());
     }
@@ -480,12 +486,18 @@ mod tests {
         let halves = |last: f64| samples(33, move |k| if k < 32.0 { 0.0 } else { last });
         assert_eq!(halves(NOISE).rest(1), Some((NOISE, NOISE)));
         // nothing moved before, so that nothing shrinks
-        assert_eq!(halves(1.01 * NOISE).rest(1), Some((1.01 * NOISE, f64::INFINITY)));
+        assert_eq!(
+            halves(1.01 * NOISE).rest(1),
+            Some((1.01 * NOISE, f64::INFINITY))
+        );
         // halved from block to block: 2^(-1/16) per return
         let shrinking = samples(33, |k| 0.5_f64.powf(k / 16.0));
         let (last, rest) = shrinking.rest(1).unwrap_or_default();
         let ratio = 0.5_f64.powf(1.0 / 16.0);
-        assert!((rest - last * ratio / (1.0 - ratio)).abs() < 1e-12 * rest, "{last} {rest}");
+        assert!(
+            (rest - last * ratio / (1.0 - ratio)).abs() < 1e-12 * rest,
+            "{last} {rest}"
+        );
         assert_eq!(samples(32, |_| 1.0).rest(1), None);
         assert_eq!(samples(36, |_| 1.0).rest(4), Some((0.0, 0.0)));
         assert_eq!(samples(35, |_| 1.0).rest(4), None);
@@ -495,7 +507,8 @@ mod tests {
     fn a_drift_is_visible_only_beyond_each_of_its_bounds() {
         // four blocks of 16 samples with one return each, the first number that of the last block
         let blocks = |returns: [f64; 4]| {
-            let height = move |k: usize| returns[3 - k.saturating_sub(1) / 16] * f64::from(k % 16 == 8);
+            let height =
+                move |k: usize| returns[3 - k.saturating_sub(1) / 16] * f64::from(k % 16 == 8);
             samples(65, move |k| height(k as usize))
         };
         let drifts = |returns: [f64; 4]| blocks(returns).drifts_over(1);

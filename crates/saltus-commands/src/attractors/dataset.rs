@@ -48,12 +48,18 @@ fn transients(set: Dataset, run: &Run, report: &Report) -> Dataset {
         (
             "transient_starts",
             |one| one.drawn.starts,
-            ("First states that were in it when their search was over", "1"),
+            (
+                "First states that were in it when their search was over",
+                "1",
+            ),
         ),
         (
             "transient_attractor",
             |one| one.to as u64,
-            ("Attractor that they count for: most watched motions ended on it", "1"),
+            (
+                "Attractor that they count for: most watched motions ended on it",
+                "1",
+            ),
         ),
         (
             "transient_ended",
@@ -72,8 +78,14 @@ fn transients(set: Dataset, run: &Run, report: &Report) -> Dataset {
     }
     let lifetimes = [
         ("transient_lifetime", "Mean lifetime in forcing periods"),
-        ("transient_lifetime_low", "Lower end of its 95 % confidence interval"),
-        ("transient_lifetime_high", "Upper end of its 95 % confidence interval"),
+        (
+            "transient_lifetime_low",
+            "Lower end of its 95 % confidence interval",
+        ),
+        (
+            "transient_lifetime_high",
+            "Upper end of its 95 % confidence interval",
+        ),
     ];
     for (part, (name, meaning)) in lifetimes.into_iter().enumerate() {
         let periods = |(_, one): &(&Row, &Passing)| one.watched.lifetime[part].unwrap_or(f64::NAN);

@@ -104,7 +104,8 @@ impl Evidence {
             return format!("stable, largest multiplier {multiplier:.4}");
         }
         let exponent = self.exponent.zip(self.exponent_error);
-        let exponent = exponent.map(|(exponent, error)| format!("exponent {exponent:.4} ± {error:.4}"));
+        let exponent =
+            exponent.map(|(exponent, error)| format!("exponent {exponent:.4} ± {error:.4}"));
         let survival = self.survival.map(|watched| {
             let [_, low, _] = watched.lifetime;
             format!(

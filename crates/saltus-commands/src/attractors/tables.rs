@@ -62,7 +62,10 @@ pub(super) fn write(folder: &mut dyn Store, run: &Run, report: &Report) -> Resul
             "starts",
             "first states that were in it when their search was over; counted for attractor",
         ),
-        ("attractor", "number of the one that most watched motions ended on"),
+        (
+            "attractor",
+            "number of the one that most watched motions ended on",
+        ),
         (
             "motions, ended, periods",
             "motions watched, how many left it, and forcing periods of chaos of all together",

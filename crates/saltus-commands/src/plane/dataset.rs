@@ -72,19 +72,25 @@ pub(crate) fn dataset(title: &str, study: &Study, plane: &Plane, layers: Layers)
             );
     }
     let counts = [
-        ("periods_run", "Forcing periods computed", layers.periods_run),
+        (
+            "periods_run",
+            "Forcing periods computed",
+            layers.periods_run,
+        ),
         (
             "chaotic_periods",
             "Forcing periods over which a chaotic motion was seen not to settle, 0 where it is not chaotic",
             chaotic,
         ),
     ];
-    counts.into_iter().fold(dataset, |set, (name, meaning, counts)| {
-        let counts: Vec<i32> = wholes(counts);
-        set.variable(
-            Variable::new(name, &over, counts)
-                .long_name(meaning)
-                .units("1"),
-        )
-    })
+    counts
+        .into_iter()
+        .fold(dataset, |set, (name, meaning, counts)| {
+            let counts: Vec<i32> = wholes(counts);
+            set.variable(
+                Variable::new(name, &over, counts)
+                    .long_name(meaning)
+                    .units("1"),
+            )
+        })
 }

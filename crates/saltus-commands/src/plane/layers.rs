@@ -253,7 +253,9 @@ impl Tally {
             let pixels = self.status.get(status.name())?;
             let shown = status.name() != periodic;
             let over = self.chaotic_over.filter(|_| *status == Status::Chaotic);
-            let over = over.map_or(String::new(), |span| format!(" for {} periods and more", span.min));
+            let over = over.map_or(String::new(), |span| {
+                format!(" for {} periods and more", span.min)
+            });
             shown.then(|| format!("  {:>5.1} %  {}{over}", percent(*pixels), status.name()))
         });
         lines.extend(others);

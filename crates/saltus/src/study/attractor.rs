@@ -208,13 +208,19 @@ where
         sink(number, found)
     })?;
     let mut chaotic = Vec::new();
-    doubt::settle(doubtful, &start_at, search, control, &mut |number, found: Found| {
-        if search.watch > 0 && found.is_chaotic() {
-            chaotic.push((number, found));
-            return Ok(());
-        }
-        sink(number, found)
-    })?;
+    doubt::settle(
+        doubtful,
+        &start_at,
+        search,
+        control,
+        &mut |number, found: Found| {
+            if search.watch > 0 && found.is_chaotic() {
+                chaotic.push((number, found));
+                return Ok(());
+            }
+            sink(number, found)
+        },
+    )?;
     watch(chaotic, &start_at, search, control, &mut sink)
 }
 
@@ -528,14 +534,13 @@ impl Motion {
 
     /// A motion of this kind, as its last samples and the recording show it, and its section: the samples of the cycle, or
     /// of the last recorded periods.
-    fn as_it_looks(
-        &self,
-        recording: &Recording,
-        kind: Kind,
-    ) -> (Attractor, Vec<Vec<[f64; 2]>>) {
+    fn as_it_looks(&self, recording: &Recording, kind: Kind) -> (Attractor, Vec<Vec<[f64; 2]>>) {
         let count = match kind {
             Kind::Periodic(n) => n as usize,
-            _ => recording.periods().min(Samples::ROWS).min(self.samples.count()),
+            _ => recording
+                .periods()
+                .min(Samples::ROWS)
+                .min(self.samples.count()),
         };
         // z of all bodies come first in a sample, then v of all
         let bodies = self.model.setup().jumpers.len();

@@ -156,7 +156,11 @@ impl Journey<'_> {
                 .filter_map(|(number, found)| Some((number, found.undecided_at()?.clone())))
                 .collect();
             let go_on = |i: usize| Ok((model_of(open[i].0)?, open[i].1.clone()));
-            for (i, later) in self.run(&search, open.len(), go_on)?.into_iter().enumerate() {
+            for (i, later) in self
+                .run(&search, open.len(), go_on)?
+                .into_iter()
+                .enumerate()
+            {
                 found[open[i].0] = later;
             }
         }
@@ -269,7 +273,9 @@ impl Journey<'_> {
                 next.extend(self.depart((at, number)));
             }
         }
-        let most = ends.iter().max_by_key(|(number, count)| (**count, usize::MAX - **number));
+        let most = ends
+            .iter()
+            .max_by_key(|(number, count)| (**count, usize::MAX - **number));
         match most {
             Some((&number, _)) => {
                 self.became.insert(node, (at, number));
@@ -389,7 +395,8 @@ impl Journey<'_> {
             });
         }
         let place = |&(at, number): &Node| Some((at, ranks[at][number]?));
-        let link = |((from, way), to): (&(Node, Way), &Node)| Some(((place(from)?, *way), place(to)?));
+        let link =
+            |((from, way), to): (&(Node, Way), &Node)| Some(((place(from)?, *way), place(to)?));
         let links = self.links.iter().filter_map(link);
         Lineages::new(rows, &links.collect(), unfinished)
     }

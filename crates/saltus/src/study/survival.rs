@@ -79,7 +79,10 @@ mod tests {
         // the rule of three: exp(-3) is 0.05
         assert!((low - 32_000.0).abs() < 100.0, "{low}");
         assert_eq!((mean, high), (f64::INFINITY, f64::INFINITY));
-        let four = Survival { ended: 4, ..watched };
+        let four = Survival {
+            ended: 4,
+            ..watched
+        };
         let [mean, low, high] = four.lifetime();
         assert_eq!(mean, 24_000.0);
         assert!(low < 9_400.0 && high > 88_000.0, "{low} {high}");
