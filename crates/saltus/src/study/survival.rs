@@ -1,8 +1,8 @@
 //! How long chaos lasts, from motions that were watched until they left it or the time was up.
 //!
-//! Transient chaos ends at a rate that does not depend on how long it has lasted [Lai & Tel 2011], so in T periods of
-//! chaos, all motions together, the number of those that leave it has Poisson's distribution with mean T / lifetime.
-//! The interval is the exact one for that mean.
+//! Transient chaos ends at a rate that does not depend on how long it has lasted, so in T periods of chaos, all motions
+//! together, the number of those that leave it has Poisson's distribution with mean T / lifetime. The interval is the
+//! exact one for that mean [Garwood 1936], and the rule of three where none left it [Hanley & Lippman-Hand 1983].
 
 /// Motions watched in chaos.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
