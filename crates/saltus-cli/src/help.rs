@@ -172,8 +172,9 @@ JSON (--json, and basins.json in --out):
                      z'/(eta omega_h) (-), the lowest first; a list for one
                      jumper, a list of lists for several; empty if not periodic
     z_range, v_range their ranges, also where it is not periodic
-  x, y, pixels, status, periods, periods_run, first_failure, transient, record,
-  version, study     as in `saltus map`
+  x, y, pixels, status, periods, chaotic_over, periods_run, first_failure,
+  transient, record, version, study
+                     as in `saltus map`
 
 Folder (--out):
   study.toml, basins.json, basins.nc, attractors.csv (one line per attractor,

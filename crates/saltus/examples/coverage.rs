@@ -228,7 +228,9 @@ fn lasts(
     let start = model.start(START.0, START.1);
     let starts = [(model, start)];
     let settled = settle(&starts, periods.saturating_sub(KEPT), KEPT, control)?;
-    Ok(settled.iter().all(|settled| cycle(&starts[0].0, settled, control).is_none()))
+    Ok(settled
+        .iter()
+        .all(|settled| cycle(&starts[0].0, settled, control).is_none()))
 }
 
 /// The stable cycle that a section is on.

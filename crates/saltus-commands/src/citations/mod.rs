@@ -87,7 +87,10 @@ const STARTS: Uses = &[
 const SHARES: Uses = &[
     ("Wilson1927", "confidence intervals of shares"),
     ("HanleyLippmanHand1983", "bound on basins that no start met"),
-    ("Garwood1936", "confidence intervals of the lifetime of chaos"),
+    (
+        "Garwood1936",
+        "confidence intervals of the lifetime of chaos",
+    ),
 ];
 
 fn methods(request: &Request, study: &Study) -> Vec<Uses> {

@@ -10,6 +10,7 @@ use saltus_hybrid::{Leg, Point, record};
 use saltus_orbits::{NewtonOptions, Orbit, Place, Samples, find_orbit};
 
 use super::attractor::{coordinates, width};
+use super::recording::rounded;
 use super::{Control, place, point, stroboscopic};
 use crate::model::Model;
 
@@ -96,7 +97,7 @@ pub(super) fn beside(model: &Model, orbit: &Orbit) -> Point {
     }
     let mut beside = orbit.places[0].clone();
     for (x, part) in beside.x.iter_mut().zip(&direction) {
-        *x += KICK * part;
+        *x = rounded(*x + KICK * part);
     }
     point(model, &beside)
 }

@@ -1,7 +1,7 @@
 //! What a motion does to floor and people, period by period.
 
-use saltus_hybrid::{End, Leg, Sample, Step, Task, integrate};
-use saltus_orbits::Orbit;
+use saltus_hybrid::{End, Leg, Point, Sample, Step, Task, integrate};
+use saltus_orbits::{Orbit, Place};
 
 use super::attractor::{Arrival, Attractor, Kind, Range};
 use super::peaks::Peaks;
@@ -107,6 +107,14 @@ fn widened([low, high]: Range, value: f64) -> Range {
     [low.min(value), high.max(value)]
 }
 
+/// Places of an orbit are good to some 1e-12, and so is linear algebra, which rounds otherwise on other processors. What
+/// is said of them is rounded to 1 / GRID, so that it is the same there too.
+const GRID: f64 = (1_u64 << 30) as f64;
+
+pub(super) fn rounded(x: f64) -> f64 {
+    (x * GRID).round() / GRID
+}
+
 /// The motion on a cycle, recorded once around; it ends at the first place of the orbit. `None` if stopped, or if
 /// the cycle cannot be run at the tolerance of `control`.
 pub(super) fn around(
@@ -114,11 +122,16 @@ pub(super) fn around(
     orbit: &Orbit,
     control: &Control,
 ) -> Option<(Attractor, Arrival)> {
+    let here = |place: &Place| {
+        let x = place.x.iter().copied().map(rounded).collect();
+        let modes = place.modes.clone();
+        point(model, &Place { modes, x })
+    };
     let lap = Lap {
         model,
         leg: Some(Leg {
             system: model.system().clone(),
-            start: point(model, &orbit.places[0]),
+            start: here(&orbit.places[0]),
             periods: orbit.period() as u64,
         }),
         recording: Recording::new(model),
@@ -131,15 +144,18 @@ pub(super) fn around(
     let recording = ended.filter(|recording| recording.periods() == orbit.period())?;
     // in the order of time, the first place last
     let ordered = orbit.places.iter().skip(1).chain(&orbit.places[..1]);
-    let points: Vec<_> = ordered.map(|place| point(model, place)).collect();
+    let points: Vec<Point> = ordered.map(here).collect();
     let body = |i: usize| {
-        let sample = |point: &saltus_hybrid::Point| [model.z(i, &point.x), model.v(i, &point.x)];
+        let sample = |point: &Point| [model.z(i, &point.x), model.v(i, &point.x)];
         points.iter().map(sample).collect()
     };
     let section: Vec<Vec<[f64; 2]>> = (0..model.setup().jumpers.len()).map(body).collect();
     let kind = Kind::Periodic(orbit.period() as u32);
     let motion = Attractor {
-        multiplier: orbit.multipliers.first().map(|largest| largest.modulus()),
+        multiplier: orbit
+            .multipliers
+            .first()
+            .map(|largest| rounded(largest.modulus())),
         ..recording.motion(model, kind, &section)
     };
     let arrival = Arrival {
