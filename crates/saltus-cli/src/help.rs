@@ -106,12 +106,17 @@ Layers (map.nc, over y and x, with units; NaN where there is no motion):
   peak_acceleration  largest absolute vertical acceleration of the floor under
                      the first jumper, base motion included (m/s2)
   periods_run        forcing periods computed
+  chaotic_periods    forcing periods over which a chaotic motion was seen not to
+                     settle, 0 where it is not chaotic: transient chaos that
+                     lasts longer is called chaotic too
   Several jumpers have contact_ratio_0, contact_ratio_1, ... of their own.
 
 JSON (--json, and map.json in --out):
   x, y               parameter, unit, label, from, to, count
   pixels, status     how many pixels of each status
   periods            period, pixels and share of each period that occurs
+  chaotic_over       min and max of chaotic_periods over the chaotic pixels; null
+                     if there are none
   contact_ratio, peak_reaction, peak_acceleration
                      min and max over the map; a list for several jumpers
   periods_run        forcing periods computed in all
@@ -167,8 +172,9 @@ JSON (--json, and basins.json in --out):
                      z'/(eta omega_h) (-), the lowest first; a list for one
                      jumper, a list of lists for several; empty if not periodic
     z_range, v_range their ranges, also where it is not periodic
-  x, y, pixels, status, periods, periods_run, first_failure, transient, record,
-  version, study     as in `saltus map`
+  x, y, pixels, status, periods, chaotic_over, periods_run, first_failure,
+  transient, record, version, study
+                     as in `saltus map`
 
 Folder (--out):
   study.toml, basins.json, basins.nc, attractors.csv (one line per attractor,
@@ -313,7 +319,9 @@ from, to and count it asks at the study's own parameters, with them at each
 value. There each attractor is also carried to the values beside, up to where
 it ends. So rare ones are found too, and one that merely changes, as by
 doubling its period, keeps its number. Motions are told apart as for
-`saltus basins`; here slow transients are run on to what they become.
+`saltus basins`; here slow transients are run on to what they become, every
+cycle is confirmed by Newton's method and its Floquet multipliers, and chaos is
+watched: eight motions on it, for 12 000 forcing periods each.
 
 JSON (--json, and attractors.json in --out):
   parameter          the key that changes; unit and label say more; null if none
@@ -325,6 +333,16 @@ JSON (--json, and attractors.json in --out):
     attractors       those with the most first states first:
       number         from 1; the same attractor has the same at all values
       period         forcing periods; null if not periodic
+      kind           \"periodic\", \"quasi-periodic\", \"chaotic\"
+      multiplier     largest modulus of the Floquet multipliers of the cycle,
+                     below 1; null if not periodic
+      exponent, exponent_error
+                     largest Lyapunov exponent per forcing period and its
+                     standard error; null if periodic
+      survival       chaos: motions watched on it, ended (0), periods of all of
+                     them together, and lifetime [mean, low, high] in forcing
+                     periods, null where infinite: low is exceeded with 95 %
+                     confidence; null if not chaotic
       starts, share  first states that lead to it; 0 for one that was only
                      carried here. share = [value, low, high], with Wilson's
                      95 % confidence interval
@@ -334,6 +352,11 @@ JSON (--json, and attractors.json in --out):
                      z'/(eta omega_h) (-), those of a cycle in an order that
                      connects along the parameter; a list for one jumper, a
                      list of lists for several
+    transients       chaos that is no attractor, since some of the motions
+                     watched on it ended on a cycle: starts and share that were
+                     still in it, motions, ended, periods and lifetime as above
+                     (a 95 % confidence interval), and to, the number of the
+                     attractor that it ends on and that its starts count for
     undecided, lost  first states that came to no attractor, since they were
                      still on their way or their run ended early; likewise
                      starts and share
@@ -357,7 +380,8 @@ JSON (--json, and attractors.json in --out):
 
 Folder (--out):
   study.toml, attractors.json, attractors.csv (one line per value, attractor and
-  jumper), sections.csv (one per sample of these), loops.csv, attractors.nc
+  jumper), sections.csv (one per sample of these), transients.csv, loops.csv,
+  attractors.nc
   (arrays over value and attractor: xarray.open_dataset), and the figure
   attractors as SVG and PNG.
 

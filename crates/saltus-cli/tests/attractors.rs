@@ -88,11 +88,56 @@ fn a_census_finds_both_attractors_and_bounds_the_rest() {
         assert!(z.len() == 2 && number(&z[0]) < number(&z[1]));
         assert!((0.0..1.0).contains(&number(&one["contact_ratio"])));
         assert!(number(&one["peak_reaction"]) > 1.0);
+        assert_eq!(one["kind"], "periodic");
+        assert!((0.0..1.0).contains(&number(&one["multiplier"])));
+        assert_eq!(one["survival"], Value::Null);
         counted += one["starts"].as_u64().unwrap();
     }
     let without = ["undecided", "lost"].map(|key| row[key]["starts"].as_u64().unwrap());
     assert_eq!(counted + without[0] + without[1], 128);
     assert_eq!(row["first_failure"], Value::Null);
+    assert_eq!(list(&row["transients"]).len(), 0);
+}
+
+#[test]
+fn chaos_that_ends_is_told_with_its_lifetime_in_every_format() {
+    // seven of eight chaotic motions reach the cycle within 12 000 periods
+    let known = [
+        "jumper.damping_ratio=0.1565",
+        "base.frequency_ratio=1.0",
+        "attractors.starts=8",
+    ];
+    let desk = Desk::new();
+    let run = |args: &[&str]| {
+        let asked = saltus(&["attractors", "-"])
+            .write_stdin(census())
+            .args(sets(&known))
+            .args(args)
+            .assert()
+            .success();
+        String::from_utf8(asked.get_output().stdout.clone()).unwrap()
+    };
+    let text = run(&["--out", &desk.str("out")]);
+    assert!(text.contains("in chaos that ends") && text.contains("counted for 1"));
+    assert!(text.contains("stable, largest multiplier 0."), "{text}");
+    let found = files(&desk.path("out"));
+    let document: Value = serde_json::from_slice(&found["attractors.json"]).unwrap();
+    let [row] = &list(&document["rows"])[..] else {
+        panic!("{document}")
+    };
+    let kinds = list(&row["attractors"]).iter().map(|one| &one["kind"]);
+    assert!(kinds.clone().count() > 0 && kinds.clone().all(|kind| kind == "periodic"));
+    let [chaos] = &list(&row["transients"])[..] else {
+        panic!("{row}")
+    };
+    assert!(number(&chaos["ended"]) > 0.0 && chaos["motions"] == 8);
+    let [mean, low, high] = [0, 1, 2].map(|part| number(&chaos["lifetime"][part]));
+    assert!(low < mean && mean < high && mean < 1e5, "{chaos}");
+    let table = String::from_utf8(found["transients.csv"].clone()).unwrap();
+    let line = table.lines().last().unwrap();
+    assert!(line.contains(&format!(",8,{},", chaos["ended"])), "{line}");
+    let names = String::from_utf8_lossy(&found["attractors.nc"]).into_owned();
+    assert!(names.contains("transient_lifetime_low") && names.contains("multiplier"));
 }
 
 #[test]
@@ -192,6 +237,7 @@ fn out_is_a_whole_folder_and_threads_do_not_change_a_bit() {
             "saltus-result.json",
             "sections.csv",
             "study.toml",
+            "transients.csv",
         ]
     );
     let document: Value = serde_json::from_slice(&found["attractors.json"]).unwrap();

@@ -10,10 +10,11 @@
 //!   and the error large.
 //! - **quasi-periodic**: it does not recur; and the weighted Birkhoff averages of the growth over both halves
 //!   agree, and that over the whole is zero, far more closely than chance allows. With standard error s of the
-//!   plain mean, the averages of the halves would in chaos differ by a normal number of standard deviation 2 s
-//!   or more (each has half of the iterates, and weights only add), which is within d of zero with a
-//!   probability of at most d / (s sqrt(2 pi)). With d the larger of that difference and the distance of the
-//!   whole from zero, this must be below one minus the confidence.
+//!   plain mean, the average over the whole would in chaos be normal with standard deviation s or more, and the
+//!   difference of the halves with 2 s or more (each has half of the iterates, and weights only add); and since one is even
+//!   in time and the other odd, they are independent. A normal number is within d of anything with a probability
+//!   of at most d sqrt(2/pi) over its deviation. The product of both must be below one minus the confidence, and each alone
+//!   below a twentieth: chaos that is so weak that its average is small has two chances, not one.
 //! - **periodic**: it recurs, and the largest exponent is negative with the confidence asked for.
 //!
 //! Everything else is undecided, with the reason. So is a slow transient near a bifurcation: its exponent
@@ -186,17 +187,23 @@ impl<'a> Evidence<'a> {
     }
 }
 
+/// Largest chance of either average alone on a torus.
+const ALONE: f64 = 0.05;
+
 /// A bound on the chance that weighted averages are so close to each other, and to zero, in chaos.
 fn chance(exponent: &Exponent, weighted: &Weighted, noise: f64) -> f64 {
     if exponent.batches == 0 {
         return 1.0;
     }
-    let furthest = weighted.difference.max(weighted.mean.abs());
     let error = exponent.standard_error.hypot(noise);
-    let chance = furthest / (error * std::f64::consts::TAU.sqrt());
-    if chance.is_nan() {
-        1.0
-    } else {
-        chance.min(1.0)
+    let within = |distance: f64, deviation: f64| {
+        let chance = distance / deviation * std::f64::consts::FRAC_2_PI.sqrt();
+        if chance.is_nan() { 1.0 } else { chance }
+    };
+    let zero = within(weighted.mean.abs(), error);
+    let agree = within(weighted.difference, 2.0 * error);
+    if zero.max(agree) > ALONE {
+        return 1.0;
     }
+    zero * agree
 }

@@ -12,7 +12,10 @@
 //! The motion has period n if r_n is small and n is the shortest such: for every divisor m of n the
 //! samples m periods apart must lie further apart than what is still to come can explain, and stay so. So
 //! an alternating approach to a fixed point, whose every second sample hardly moves, is not called a 2-cycle.
-//! Where D is no longer above the noise of the integration it does not shrink either, and r_n = D.
+//! Where D is no longer above the noise of the integration it does not shrink either, and r_n = D. Then the
+//! split, the smallest of those distances, is all that tells n from a divisor. One that is narrow must have
+//! kept its width in everything that is remembered; and whoever can should ask Newton's method, since a
+//! multiplier near -1 narrows it more slowly than any number of samples shows ([`OnCycle::is_sure`]).
 //!
 //! A motion whose returns are small, but visibly shrink or grow over four blocks in a row, or hardly change
 //! from one to the next, is [`Recurrence::Drifting`]: still coming to a cycle, or leaving an unstable one. Near
@@ -35,6 +38,13 @@ const APART: f64 = 10.0;
 
 /// Distances that tell two periods apart keep this part of themselves from block to block.
 const STAYS: f64 = 0.99;
+
+/// Cycles whose samples lie closer together than this (eta) are one: integration leaves as much.
+const SAME: f64 = 1e-6;
+
+/// A split wider than this (eta) is no slow transient: at the doubling itself, where one narrows as its cube, it
+/// would still move by more than [`Closeness::TIGHT`] allows.
+const WIDE: f64 = 0.02;
 
 /// Distances above this are no return at all.
 const FAR: f64 = 0.1;
@@ -76,10 +86,20 @@ pub struct OnCycle {
     pub period: u32,
     /// Bound of what is still to come of the transient (eta).
     pub rest: f64,
+    /// The smallest distance (eta) between samples that a shorter period would make equal; infinite for period 1.
+    pub split: f64,
+}
+
+impl OnCycle {
+    /// Whether samples alone tell the period: next to nothing is left of the transient, and no part of the cycle comes
+    /// near to repeating. That the cycle is stable they tell only of a motion that came from far away.
+    pub fn is_sure(&self) -> bool {
+        self.rest <= Closeness::TIGHT.rest && self.split > WIDE
+    }
 }
 
 impl From<OnCycle> for Recurrence {
-    fn from(OnCycle { period, rest }: OnCycle) -> Self {
+    fn from(OnCycle { period, rest, .. }: OnCycle) -> Self {
         Self::Recurs { period, rest }
     }
 }
@@ -162,11 +182,41 @@ impl Samples {
     /// Whether samples `m` apart, for all divisors m of `n`, stay apart by more than `rest` can explain.
     fn is_shortest(&self, n: usize, rest: f64) -> bool {
         let block = n.max(BLOCK);
+        let least = SAME.max(APART * rest);
+        let oldest = |m: usize| self.largest(self.kept() - block - m, block, m);
         let apart = |m: usize| {
             let (last, before) = (self.largest(0, block, m), self.largest(block, block, m));
-            last > APART * rest.max(NOISE) && last > STAYS * before
+            last > least && last > STAYS * before && (last > WIDE || last > STAYS * oldest(m))
         };
-        (1..n).filter(|m| n.is_multiple_of(*m)).all(apart)
+        divisors(n).all(apart)
+    }
+
+    /// Samples that are still there.
+    fn kept(&self) -> usize {
+        self.count.min(Self::ROWS)
+    }
+
+    /// Periods after which each of the last samples, a block of them, comes back within `limit`: the shortest first, and
+    /// of longer ones those whose returns are nearer than any before. Where a motion comes to a cycle, its period is
+    /// among them.
+    pub fn returns(&self, limit: f64) -> Vec<usize> {
+        let mut nearest = limit;
+        let mut comes_back = |n: &usize| {
+            let block = BLOCK.max(*n);
+            // most are refused by one comparison
+            let near = self.kept() >= block + n && self.distance(0, *n) <= nearest;
+            let furthest = if near {
+                self.largest(0, block, *n)
+            } else {
+                f64::INFINITY
+            };
+            let nearer = furthest <= nearest;
+            if nearer {
+                nearest = furthest;
+            }
+            nearer
+        };
+        (1..=MAX_PERIOD).filter(|n| comes_back(n)).collect()
     }
 
     /// Whether the motion is on a cycle, as closely as `limit` asks; `None` if it is not known to be.
@@ -176,24 +226,30 @@ impl Samples {
         (1..=MAX_PERIOD).filter(near).find_map(|n| {
             let (last, rest) = self.rest(n)?;
             let close = last <= limit.distance && rest <= limit.rest;
-            let period = n as u32;
-            (close && self.is_shortest(n, rest)).then_some(OnCycle { period, rest })
+            let splits = divisors(n).map(|m| self.largest(0, n.max(BLOCK), m));
+            (close && self.is_shortest(n, rest)).then(|| OnCycle {
+                period: n as u32,
+                rest,
+                split: splits.fold(f64::INFINITY, f64::min),
+            })
         })
     }
 
     /// Whether the motion visibly comes closer to some cycle, or leaves one.
     fn drifts(&self) -> bool {
-        let drifts = |n: usize| {
-            let block = self.count.min(Self::ROWS).saturating_sub(n) / 4;
-            if block < BLOCK / 2 || self.largest(0, block, n) > FAR {
-                return false;
-            }
-            let blocks = [0, 1, 2, 3].map(|i| self.largest(i * block, block, n));
-            let shrinks = |pair: &[f64]| pair[0] < VISIBLE * pair[1];
-            let grows = |pair: &[f64]| pair[1] < VISIBLE * pair[0];
-            blocks.windows(2).all(shrinks) || blocks.windows(2).all(grows)
-        };
-        (1..=MAX_PERIOD).any(|n| drifts(n) || self.creeps(n))
+        (1..=MAX_PERIOD).any(|n| self.drifts_over(n) || self.creeps(n))
+    }
+
+    /// Whether the returns after `n` periods shrink, or grow, from each of four blocks to the next.
+    fn drifts_over(&self, n: usize) -> bool {
+        let block = self.kept().saturating_sub(n) / 4;
+        if block < BLOCK / 2 || self.largest(0, block, n) > FAR {
+            return false;
+        }
+        let blocks = [0, 1, 2, 3].map(|i| self.largest(i * block, block, n));
+        let shrinks = |pair: &[f64]| pair[0] < VISIBLE * pair[1];
+        let grows = |pair: &[f64]| pair[1] < VISIBLE * pair[0];
+        blocks.windows(2).all(shrinks) || blocks.windows(2).all(grows)
     }
 
     /// Whether the returns after `n` periods are small, and each is nearly the one before.
@@ -221,6 +277,11 @@ impl Samples {
             None => Recurrence::Open,
         }
     }
+}
+
+/// Those below `n`.
+fn divisors(n: usize) -> impl Iterator<Item = usize> {
+    (1..n).filter(move |m| n.is_multiple_of(*m))
 }
 
 #[cfg(test)]
@@ -347,5 +408,122 @@ mod tests {
         let leaving = |k: f64| 1e-6 * 1.01_f64.powf(k);
         assert_eq!(tight(200, leaving), None);
         assert_eq!(samples(464, leaving).judge(), Recurrence::Drifting);
+    }
+
+    /// Alternates between 0 and `old`, and at the last 17 samples, those of the last block of 16 steps, between 0
+    /// and `new`.
+    fn steps(old: f64, new: f64) -> Samples {
+        let width = |k: usize| if k < 23 { old } else { new };
+        samples(40, |k| f64::from(k as usize % 2 == 0) * width(k as usize))
+    }
+
+    #[test]
+    fn a_period_is_the_shortest_only_beyond_each_of_its_bounds() {
+        // 10 rests of 1/8: a split as wide as that may be what is left of the transient
+        assert!(!steps(1.25, 1.25).is_shortest(2, 0.125));
+        assert!(steps(1.25, 1.25).is_shortest(2, 0.1249));
+        // 0.99 of itself and no more is what is left of a split that is not there to stay
+        assert!(!steps(1.0, STAYS).is_shortest(2, 0.0));
+        assert!(steps(1.0, 0.991).is_shortest(2, 0.0));
+        // either bound alone refuses
+        assert!(!steps(1.0, 0.5).is_shortest(2, 0.0));
+        assert!(!steps(1.0, 1.0).is_shortest(2, 1.0));
+        // and so does one divisor of several: 4 samples that are 2 samples twice
+        assert!(!samples(60, |k| k % 2.0).is_shortest(4, 0.0));
+        assert!(samples(60, |k| k % 4.0).is_shortest(4, 0.0));
+        // what the integration leaves of one cycle does not make two
+        assert!(!steps(SAME, SAME).is_shortest(2, 0.0));
+        assert!(steps(1.5 * SAME, 1.5 * SAME).is_shortest(2, 0.0));
+    }
+
+    #[test]
+    fn a_narrow_split_must_have_stayed_for_as_long_as_is_remembered() {
+        // half a percent in a block of 16, as a multiplier of -0.9997 leaves, and 7 % since the first one
+        let narrowing = |width: f64| {
+            let sign = |k: f64| if k % 2.0 == 0.0 { 0.5 } else { -0.5 };
+            samples(256, move |k| sign(k) * width * 0.9997_f64.powf(k - 255.0))
+        };
+        assert!(!narrowing(0.95 * WIDE).is_shortest(2, 0.0));
+        assert!(narrowing(1.05 * WIDE).is_shortest(2, 0.0));
+        let split = |width: f64| samples(200, |k| width * (k % 2.0)).settled(Closeness::TIGHT);
+        assert!(
+            split(1.01 * WIDE).is_some_and(|found| found.is_sure() && found.split == 1.01 * WIDE)
+        );
+        assert!(split(WIDE).is_some_and(|found| !found.is_sure()));
+        assert!(tight(200, |_| 1.0).is_some());
+    }
+
+    #[test]
+    fn the_slow_double_return_of_a_negative_multiplier_is_no_doubled_period() {
+        // a 6-cycle with a multiplier of -0.999: after 12 periods it is back within 1e-9 while still 1e-6 from itself
+        let place = |k: f64| ((k as usize % 6) as f64 * 0.7).sin();
+        for left in [1e-5, 1e-6, 1e-7] {
+            let near = |k: f64| place(k) + left * (-0.999_f64).powi(k as i32 / 6);
+            for count in (60..700).step_by(8) {
+                let found = samples(count, near);
+                let name = found.settled(Closeness::TIGHT).map(|found| found.period);
+                assert!(matches!(name, None | Some(6)), "{left} {count}: {name:?}");
+                assert_ne!(period(found.judge()), Some(12), "{left} {count}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_slow_spiral_onto_a_cycle_is_no_cycle_of_seven_turns() {
+        // a 2-cycle whose multipliers turn by nearly a seventh: samples come back best after 14 periods
+        let spiral = |k: f64| {
+            let turns = (k / 2.0).floor();
+            k % 2.0 + 1e-8 * 0.9999_f64.powf(turns) * (turns / 7.0 * std::f64::consts::TAU).cos()
+        };
+        for count in (60..700).step_by(8) {
+            assert!(matches!(tight(count, spiral), None | Some(2)), "{count}");
+        }
+        assert_eq!(period(samples(464, spiral).judge()), Some(2));
+    }
+
+    #[test]
+    fn a_rest_is_noise_up_to_its_bound_and_a_geometric_series_above() {
+        let halves = |last: f64| samples(33, move |k| if k < 32.0 { 0.0 } else { last });
+        assert_eq!(halves(NOISE).rest(1), Some((NOISE, NOISE)));
+        // nothing moved before, so that nothing shrinks
+        assert_eq!(
+            halves(1.01 * NOISE).rest(1),
+            Some((1.01 * NOISE, f64::INFINITY))
+        );
+        // halved from block to block: 2^(-1/16) per return
+        let shrinking = samples(33, |k| 0.5_f64.powf(k / 16.0));
+        let (last, rest) = shrinking.rest(1).unwrap_or_default();
+        let ratio = 0.5_f64.powf(1.0 / 16.0);
+        assert!(
+            (rest - last * ratio / (1.0 - ratio)).abs() < 1e-12 * rest,
+            "{last} {rest}"
+        );
+        assert_eq!(samples(32, |_| 1.0).rest(1), None);
+        assert_eq!(samples(36, |_| 1.0).rest(4), Some((0.0, 0.0)));
+        assert_eq!(samples(35, |_| 1.0).rest(4), None);
+    }
+
+    #[test]
+    fn a_drift_is_visible_only_beyond_each_of_its_bounds() {
+        // four blocks of 16 samples with one return each, the first number that of the last block
+        let blocks = |returns: [f64; 4]| {
+            let height =
+                move |k: usize| returns[3 - k.saturating_sub(1) / 16] * f64::from(k % 16 == 8);
+            samples(65, move |k| height(k as usize))
+        };
+        let drifts = |returns: [f64; 4]| blocks(returns).drifts_over(1);
+        assert!(drifts([0.01, 0.02, 0.03, 0.04]) && drifts([0.04, 0.03, 0.02, 0.01]));
+        assert!(!drifts([0.01, 0.02, 0.04, 0.03]) && !drifts([0.04, 0.03, 0.01, 0.02]));
+        // a sixteenth times 0.97, and hardly less
+        let [whole, part, less] = [1.0, VISIBLE, 0.9999 * VISIBLE].map(|ratio| ratio / 16.0);
+        assert!(!drifts([0.01, 0.02, part, whole]) && drifts([0.01, 0.02, less, whole]));
+        assert!(!drifts([whole, part, 0.02, 0.01]) && drifts([whole, less, 0.02, 0.01]));
+        assert!(drifts([FAR, 0.03, 0.02, 0.01]) && !drifts([1.001 * FAR, 0.03, 0.02, 0.01]));
+        // blocks of eight samples, and of seven
+        let decay = |count: usize| samples(count, |k| 0.1 * 0.9_f64.powf(k));
+        assert!(decay(33).drifts_over(1) && !decay(32).drifts_over(1));
+        assert!(samples(18, |k| k / 64.0).creeps(1), "as slow as that");
+        assert!(!samples(18, |k| k / 32.0).creeps(1), "too fast");
+        assert!(!samples(17, |k| k / 64.0).creeps(1), "too few");
     }
 }

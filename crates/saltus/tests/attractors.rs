@@ -70,11 +70,16 @@ fn pixels_are_the_same_bits_alone_in_any_order_and_on_any_threads() {
 #[test]
 fn stopping_early_changes_no_label_and_saves_a_third() {
     let all: Vec<usize> = (0..grid().len()).collect();
-    let early = found(&all, &Search::default(), 0);
-    let full = Search {
-        early_stop: false,
+    // chaos is watched for as long with and without it
+    let early = Search {
+        watch: 0,
         ..Search::default()
     };
+    let full = Search {
+        early_stop: false,
+        ..early
+    };
+    let early = found(&all, &early, 0);
     let late = found(&all, &full, 0);
     let periods = |found: &[(usize, Found)]| found.iter().map(|(_, f)| f.periods).sum::<u64>();
     assert!(3 * periods(&early) < 2 * periods(&late));
@@ -118,13 +123,78 @@ fn labels_are_those_of_the_paper() {
     }
 }
 
+/// What the paper's start leads to.
+fn pixel(zeta: f64, ratio: f64, search: &Search) -> Found {
+    let model = Setup::dias_del_prado(zeta, ratio).model().expect("valid");
+    let start_at = |_| Ok((model.clone(), model.start(3.0, 2.0)));
+    let mut one = None;
+    attractors([0], start_at, search, &Control::default(), |_, found| {
+        one = Some(found);
+        Ok::<(), StudyError>(())
+    })
+    .expect("runs");
+    one.expect("an answer")
+}
+
 #[test]
-fn peaks_are_those_of_a_fine_time_history() {
+fn the_shortest_period_wins_where_the_double_return_is_closer() {
+    // 6-cycles with a multiplier near -1: 20 000 periods and Newton's method
+    for zeta in [0.211_159_686, 0.219_996_601] {
+        let found = pixel(zeta, 1.034_652_482, &Search::default());
+        assert_eq!(kind(&found), Some(Kind::Periodic(6)), "{zeta}");
+    }
+}
+
+#[test]
+fn a_slow_approach_to_a_cycle_is_decided_by_its_multipliers() {
+    // undecided after 4168 periods without them; the multipliers are those of an orbit after 20 000 periods
+    for (zeta, ratio, period, multiplier) in [
+        (0.138_499, 0.940_715, 2, 0.986_625_f64.hypot(0.149_927)),
+        (0.170_492, 0.954_346, 2, 0.996_063),
+        (0.373_270, 1.105_301, 4, 0.994_764),
+    ] {
+        let found = pixel(zeta, ratio, &Search::default());
+        assert_eq!(kind(&found), Some(Kind::Periodic(period)), "{zeta}");
+        let motion = found.attractor.expect("a motion");
+        let largest = motion.multiplier.expect("Newton's method was asked");
+        // places are rounded to six digits, and multipliers move by some 1e-5 from there
+        assert!((largest - multiplier).abs() < 1e-4, "{zeta}: {largest}");
+        assert_eq!(motion.z[0].len(), period as usize);
+    }
+}
+
+#[test]
+fn a_torus_is_told_by_averages_over_one_long_piece() {
+    // the largest exponents over 8000 periods are zero within 2e-5, and no cycle of up to 32 periods is near
+    for (zeta, ratio) in [(0.10, 0.953), (0.106, 0.9532), (0.11, 0.953)] {
+        let found = pixel(zeta, ratio, &Search::default());
+        assert_eq!(kind(&found), Some(Kind::QuasiPeriodic), "{zeta} {ratio}");
+        let motion = found.attractor.expect("a motion");
+        assert!(motion.confidence >= Some(0.999));
+    }
+}
+
+#[test]
+fn chaos_says_over_how_many_periods_it_was_seen() {
+    let hasty = Search {
+        watch: 0,
+        ..Search::default()
+    };
+    let [short, long] = [hasty, Search::default()].map(|search| pixel(0.12, 1.0, &search));
+    assert_eq!([&short, &long].map(kind), [Some(Kind::Chaotic); 2]);
+    // run on for its time, and the periods of a last look
+    let more = long.periods - short.periods;
+    assert_eq!(more, Search::default().watch + Search::default().record);
+}
+
+#[test]
+fn peaks_are_the_tops_of_the_motion_between_samples() {
     let search = Search {
         transient: 12,
         record: 8,
         early_stop: false,
         exponent: 0,
+        ..Search::default()
     };
     for (zeta, ratio) in [(0.3, 1.0), (0.12, 1.0), (0.15, 1.1)] {
         let model = Setup::dias_del_prado(zeta, ratio).model().expect("valid");
@@ -137,12 +207,22 @@ fn peaks_are_those_of_a_fine_time_history() {
         })
         .expect("runs");
         let peaks = peaks.expect("a motion");
-        let run = simulate(&model, &start, 20, 8, 4000, &Control::default()).expect("runs");
-        let states = &run.history.states;
-        let reaction = states.iter().fold(0.0, |m: f64, s| m.max(s.prf[0]));
-        // 4000 readings per period miss a top by some 1e-6 of it
-        let error = peaks.peak_reaction[0] / reaction - 1.0;
-        assert!(error.abs() < 1e-5, "{zeta} {ratio}: {error}");
+        let run = |points| simulate(&model, &start, 20, 8, points, &Control::default());
+        let run = [10, 4000].map(|points| run(points).expect("runs"));
+        // however few points the history has
+        assert_eq!(run[0].peak_reaction, run[1].peak_reaction);
+        assert!((run[0].peak_reaction[0] / peaks.peak_reaction[0] - 1.0).abs() < 1e-9);
+        let states = &run[1].history.states;
+        let reaction = |i: usize| states[i].prf[0];
+        let highest = (1..states.len() - 1)
+            .max_by(|&a, &b| reaction(a).total_cmp(&reaction(b)))
+            .expect("states");
+        assert!(run[1].peak_reaction[0] >= reaction(highest));
+        // the parabola through the three highest of 4000 readings per period has an error of fourth order in 1/4000
+        let [before, top, after] = [highest - 1, highest, highest + 1].map(reaction);
+        let vertex = top + (after - before).powi(2) / (8.0 * (2.0 * top - before - after));
+        let error = run[1].peak_reaction[0] / vertex - 1.0;
+        assert!(error.abs() < 1e-9, "{zeta} {ratio}: {error:e}");
         // second differences, of second order, kept within each step of the motion
         let h = model.scales().period() / 4000.0;
         let second = |w: &[saltus::model::Observation]| {
@@ -213,6 +293,7 @@ fn a_pixel_without_model_and_one_of_another_structure_are_answers_too() {
         record: 4,
         early_stop: true,
         exponent: 0,
+        ..Search::default()
     };
     let mut answers = vec![None; 4];
     attractors(0..4, start_at, &search, &Control::default(), |i, found| {

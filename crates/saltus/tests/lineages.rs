@@ -88,6 +88,78 @@ fn a_slow_transient_is_no_attractor_and_counts_for_what_it_becomes() {
     assert_eq!(found.attractors[0].fraction.count + without(&found), 24);
 }
 
+/// The attractors that so many starts lead to.
+fn counted(zeta: f64, ratio: f64, count: usize) -> Census {
+    let model = model(zeta, ratio).expect("valid");
+    census(&model, &starts(count), &Search::default(), &control(0)).expect("runs")
+}
+
+#[test]
+fn chaos_that_ends_is_a_transient_with_a_lifetime() {
+    // of eight chaotic motions seven reached the cycle within 12 000 periods, and four at zeta_h 0.155
+    for (zeta, ratio) in [(0.1565, 1.0), (0.155, 1.0)] {
+        let found = counted(zeta, ratio, 16);
+        for one in &found.attractors {
+            let motion = &one.entry.attractor;
+            assert!(
+                matches!(motion.kind, Kind::Periodic(_)),
+                "{zeta}: {motion:?}"
+            );
+            assert!(motion.multiplier.is_some_and(|largest| largest < 1.0));
+        }
+        let [chaos] = &found.transients[..] else {
+            panic!("{zeta}: {:?}", found.transients)
+        };
+        assert!(chaos.survival.ended > 0 && chaos.survival.motions == 8);
+        let [mean, low, high] = chaos.survival.lifetime();
+        assert!(1e3 < mean && mean < 1e5, "{zeta}: {mean}");
+        assert!(low < mean && mean < high);
+        // its starts count for what it ends on
+        assert!(found.attractors[chaos.to].fraction.count >= chaos.fraction.count);
+        let counts = found.attractors.iter().map(|one| one.fraction.count);
+        assert_eq!(counts.sum::<u64>() + without(&found), 16);
+    }
+}
+
+#[test]
+fn chaos_that_lasts_is_an_attractor_with_a_bound_on_its_lifetime() {
+    let found = counted(0.12, 1.0, 4);
+    let [chaos] = &found.attractors[..] else {
+        panic!("{:?}", found.attractors)
+    };
+    assert_eq!(chaos.entry.attractor.kind, Kind::Chaotic);
+    let survival = chaos.survival.expect("it was watched");
+    assert_eq!((survival.motions, survival.ended), (8, 0));
+    let [mean, low, _] = survival.lifetime();
+    assert!(mean == f64::INFINITY && low > 30_000.0, "{low}");
+    assert_eq!(found.transients, []);
+}
+
+#[test]
+fn a_slow_spiral_and_an_unstable_cycle_are_no_attractors() {
+    // at (1.1, 0.445) one 2-cycle, to which motions spiral so slowly that they come back best after 14 periods; at
+    // (1.0, 0.46) the 2-cycle beside the doubling at 0.46096
+    for (zeta, ratio) in [(0.445, 1.1), (0.46, 1.0)] {
+        let found = counted(zeta, ratio, 32);
+        let kinds: Vec<Kind> = found
+            .attractors
+            .iter()
+            .map(|one| one.entry.attractor.kind)
+            .collect();
+        assert_eq!(kinds, [Kind::Periodic(2)], "{zeta} {ratio}");
+        let section = &found.attractors[0].arrival.section[0];
+        assert!((section[0][0] - section[1][0]).abs() > 1e-3, "{section:?}");
+    }
+    // the same from a motion carried from beyond the doubling, which sits on the unstable cycle
+    let found = followed(&[0.46, 0.462], 1.0, 1, 0);
+    let kinds = found.rows.iter().map(|row| {
+        let kinds = row.attractors().iter().map(|one| one.entry.attractor.kind);
+        kinds.collect::<Vec<_>>()
+    });
+    let [two, one] = [Kind::Periodic(2), Kind::Periodic(1)];
+    assert_eq!(kinds.collect::<Vec<_>>(), [[two], [one]]);
+}
+
 #[test]
 fn an_attractor_that_no_start_meets_is_found_from_its_neighbours() {
     // zeta_h 0.12 at 0.9, 4096 starts of this box: 97.0 % lead to one 2-cycle and 3.0 % to another, nine in ten

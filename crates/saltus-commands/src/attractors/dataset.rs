@@ -2,6 +2,7 @@
 //! all motions one after the other.
 
 use super::Run;
+use super::evidence::Passing;
 use super::report::{Attractor, Report, Row, Share};
 use crate::dataset::motion::{HEIGHT, VELOCITY, jumpers};
 use crate::dataset::{about, coordinate, name, numbered, padded, values, variable, wholes};
@@ -26,7 +27,72 @@ pub(super) fn dataset(run: &Run, report: &Report) -> Dataset {
     }
     set = shares(set, run, report);
     set = sections(set, run, report);
+    set = transients(set, run, report);
     loops(set, run, report)
+}
+
+/// Chaos that ends.
+fn transients(set: Dataset, run: &Run, report: &Report) -> Dataset {
+    let rows = report.rows.iter();
+    let all: Vec<(&Row, &Passing)> = rows
+        .flat_map(|row| row.transients.iter().map(move |one| (row, one)))
+        .collect();
+    let over = ["transient"];
+    let mut set = set.dimension(over[0], all.len());
+    if let Some(parameter) = &run.parameter {
+        let at = all.iter().map(|(row, _)| row.value.unwrap_or(f64::NAN));
+        let name = format!("transient_{}", name(parameter));
+        set = set.variable(values(name, &over, parameter, at.collect()));
+    }
+    let counts: [Quantity<fn(&Passing) -> u64>; 4] = [
+        (
+            "transient_starts",
+            |one| one.drawn.starts,
+            (
+                "First states that were in it when their search was over",
+                "1",
+            ),
+        ),
+        (
+            "transient_attractor",
+            |one| one.to as u64,
+            (
+                "Attractor that they count for: most watched motions ended on it",
+                "1",
+            ),
+        ),
+        (
+            "transient_ended",
+            |one| one.watched.ended.into(),
+            ("Watched motions that left it", "1"),
+        ),
+        (
+            "transient_periods",
+            |one| one.watched.periods,
+            ("Forcing periods of chaos of all watched motions", "1"),
+        ),
+    ];
+    for (name, of, meaning) in counts {
+        let counts = wholes(all.iter().map(|(_, one)| of(one)));
+        set = set.variable(variable(name, &over, counts, meaning));
+    }
+    let lifetimes = [
+        ("transient_lifetime", "Mean lifetime in forcing periods"),
+        (
+            "transient_lifetime_low",
+            "Lower end of its 95 % confidence interval",
+        ),
+        (
+            "transient_lifetime_high",
+            "Upper end of its 95 % confidence interval",
+        ),
+    ];
+    for (part, (name, meaning)) in lifetimes.into_iter().enumerate() {
+        let periods = |(_, one): &(&Row, &Passing)| one.watched.lifetime[part].unwrap_or(f64::NAN);
+        let periods: Vec<f64> = all.iter().map(periods).collect();
+        set = set.variable(variable(name, &over, periods, (meaning, "1")));
+    }
+    set
 }
 
 /// Name of the dimension of values, if there is one.
@@ -40,7 +106,37 @@ type Number = fn(&Attractor) -> f64;
 type Bodies = fn(&Attractor) -> &PerJumper<f64>;
 type Rest = fn(&Row) -> Share;
 
-const NUMBERS: [Quantity<Number>; 4] = [
+const NUMBERS: [Quantity<Number>; 8] = [
+    (
+        "multiplier",
+        |a| a.evidence.multiplier.unwrap_or(f64::NAN),
+        ("Largest modulus of the Floquet multipliers of a cycle", "1"),
+    ),
+    (
+        "exponent",
+        |a| a.evidence.exponent.unwrap_or(f64::NAN),
+        (
+            "Largest Lyapunov exponent per forcing period, where there is no cycle",
+            "1",
+        ),
+    ),
+    (
+        "exponent_error",
+        |a| a.evidence.exponent_error.unwrap_or(f64::NAN),
+        ("Standard error of exponent", "1"),
+    ),
+    (
+        "lifetime_low",
+        |a| {
+            let survival = a.evidence.survival;
+            let low = survival.and_then(|watched| watched.lifetime[1]);
+            low.unwrap_or(f64::NAN)
+        },
+        (
+            "Forcing periods that the mean lifetime of chaos exceeds with 95 % confidence",
+            "1",
+        ),
+    ),
     (
         "share",
         |a| a.drawn.share[0],
@@ -111,6 +207,15 @@ fn shares(mut set: Dataset, run: &Run, report: &Report) -> Dataset {
             &cell,
             whole(|a| a.drawn.starts),
             ("First states that lead to it", "1"),
+        ))
+        .variable(variable(
+            "kind",
+            &cell,
+            whole(|a| a.evidence.code()),
+            (
+                "0 not met, 1 periodic, 2 quasi-periodic, 3 chaotic, 4 not periodic",
+                "1",
+            ),
         ))
         .variable(variable(
             "period",

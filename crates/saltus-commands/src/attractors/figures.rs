@@ -1,7 +1,7 @@
 //! The figure of attractors: sections in one colour for each, and below it the shares of their basins.
 
 use super::Run;
-use super::report::{Attractor, Report, Share, name};
+use super::report::{Attractor, Report, Share};
 use crate::per_jumper::{PANELS, panel_title};
 use crate::words::{base_in_title, capitalized};
 use saltus::study::Fraction;
@@ -98,7 +98,7 @@ fn label(run: &Run, identity: usize, its: &[(usize, &Attractor)]) -> String {
     match (its, &run.parameter) {
         ([(_, one)], None) => {
             let [share, low, high] = one.drawn.share.map(|share| 100.0 * share);
-            let kind = name(one.period);
+            let kind = one.name();
             format!(
                 "{}: {kind}, {share:.1} % ({low:.1} to {high:.1} %)",
                 identity + 1

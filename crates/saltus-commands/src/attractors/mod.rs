@@ -1,6 +1,7 @@
 //! `saltus attractors`: all coexisting attractors, in one place or matched along a parameter.
 
 mod dataset;
+mod evidence;
 mod figures;
 mod report;
 mod section;
@@ -183,7 +184,7 @@ impl Run {
         self.parameter.as_ref().map(|_| value)
     }
 
-    /// What attractor `identity` is along the parameter: `1T to 4T, not periodic`.
+    /// What attractor `identity` is along the parameter: `1T to 4T, chaotic`.
     fn kinds(&self, identity: usize) -> String {
         let all = self.found.rows.iter().flat_map(Row::attractors);
         let its = all.filter(|counted| counted.identity == identity);
@@ -198,9 +199,17 @@ impl Run {
             (Some(only), _) => Some(format!("{only}T")),
             _ => None,
         };
-        let rest = kinds.iter().any(|kind| kind.never_repeats());
-        let rest = rest.then(|| "not periodic".to_owned());
-        let parts: Vec<String> = cycles.into_iter().chain(rest).collect();
+        let is = |kind: Kind| kinds.contains(&kind);
+        let others = [
+            (Kind::QuasiPeriodic, "quasi-periodic"),
+            (Kind::Chaotic, "chaotic"),
+            (Kind::NotPeriodic, "not periodic"),
+        ];
+        let others = others.into_iter().filter(|(kind, _)| is(*kind));
+        let parts: Vec<String> = cycles
+            .into_iter()
+            .chain(others.map(|(_, name)| name.to_owned()))
+            .collect();
         parts.join(", ")
     }
 }

@@ -1,5 +1,6 @@
 //! The JSON document of attractors.
 
+use super::evidence::{Evidence, Passing};
 use super::section::{self, Section};
 use super::{Loss, Run};
 use crate::per_jumper::PerJumper;
@@ -29,6 +30,7 @@ pub(super) struct Report<'a> {
 pub(super) struct Row {
     pub(super) value: Option<f64>,
     pub(super) attractors: Vec<Attractor>,
+    pub(super) transients: Vec<Passing>,
     pub(super) undecided: Share,
     pub(super) lost: Share,
     pub(super) first_failure: Option<FirstFailure>,
@@ -40,6 +42,8 @@ pub(super) struct Attractor {
     pub(super) number: usize,
     /// Null if not periodic.
     pub(super) period: Option<u32>,
+    #[serde(flatten)]
+    pub(super) evidence: Evidence,
     #[serde(flatten)]
     pub(super) drawn: Share,
     pub(super) contact_ratio: PerJumper<f64>,
@@ -126,6 +130,8 @@ impl<'a> Report<'a> {
 impl Row {
     fn new(run: &Run, row: &saltus::study::Row, sections: &[Section]) -> Self {
         let attractors = row.attractors().iter().zip(sections);
+        let transients = row.census.iter().flat_map(|census| &census.transients);
+        let number = |place: usize| row.attractors()[place].identity + 1;
         let (undecided, lost, failure) = match &row.census {
             Ok(census) => (census.undecided, census.lost, census.first_lost.clone()),
             Err(error) => {
@@ -137,6 +143,9 @@ impl Row {
             value: run.value(row.value),
             attractors: attractors
                 .map(|(counted, section)| Attractor::new(counted, section))
+                .collect(),
+            transients: transients
+                .map(|transient| Passing::new(transient, number))
                 .collect(),
             undecided: undecided.into(),
             lost: lost.into(),
@@ -158,6 +167,7 @@ impl Attractor {
         Self {
             number: counted.identity + 1,
             period: period(motion.kind),
+            evidence: counted.into(),
             drawn: counted.fraction.into(),
             contact_ratio: motion.contact_ratio.clone().into(),
             peak_reaction: motion.peak_reaction.clone().into(),
@@ -165,6 +175,14 @@ impl Attractor {
             z: of(0),
             v: of(1),
         }
+    }
+}
+
+impl Attractor {
+    /// `2T`, or `chaotic`.
+    pub(super) fn name(&self) -> String {
+        let kind = || self.evidence.kind.to_owned();
+        self.period.map_or_else(kind, |n| format!("{n}T"))
     }
 }
 

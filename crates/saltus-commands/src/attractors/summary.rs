@@ -15,8 +15,13 @@ pub(super) fn text(run: &Run, report: &Report) -> String {
     );
     let lists = match &run.parameter {
         None => {
-            let all = report.rows.iter().flat_map(|row| &row.attractors);
-            vec![all.map(in_words).collect()]
+            let rows = || report.rows.iter();
+            let all = rows().flat_map(|row| &row.attractors).map(in_words);
+            let passing = rows().flat_map(|row| &row.transients);
+            vec![
+                all.collect(),
+                passing.map(|transient| transient.in_words()).collect(),
+            ]
         }
         Some(parameter) => {
             let values = run.found.rows.iter().map(|row| short(row.value));
@@ -54,12 +59,13 @@ fn in_words(one: &Attractor) -> String {
         list.join(" and ")
     };
     format!(
-        "{:>3}  {}  {}, contact {}, peak reaction {}",
+        "{:>3}  {}  {}, contact {}, peak reaction {}; {}",
         one.number,
         percent(one.drawn),
-        name(one.period),
+        one.name(),
         each(one.contact_ratio.as_slice()),
-        each(one.peak_reaction.as_slice())
+        each(one.peak_reaction.as_slice()),
+        one.evidence.in_words()
     )
 }
 
@@ -127,9 +133,24 @@ fn worst(what: &str, report: &Report, of: fn(&Row) -> Share) -> String {
     })
 }
 
+/// Chaos that is no attractor, over a parameter.
+fn passing(report: &Report) -> String {
+    let rows = report.rows.iter().filter(|row| row.value.is_some());
+    let all = rows.flat_map(|row| row.transients.iter().map(move |one| (row, one)));
+    let longest = all.clone().max_by_key(|(_, one)| one.watched.periods);
+    longest.map_or(String::new(), |(row, one)| {
+        format!(
+            "  chaos that ends, at {} values; the longest at {}:\n{}\n",
+            all.count(),
+            short(row.value.unwrap_or(f64::NAN)),
+            one.in_words()
+        )
+    })
+}
+
 /// What was not decided, and what was not seen.
 fn doubts(report: &Report) -> String {
-    let mut text = String::new();
+    let mut text = passing(report);
     text += &worst("undecided", report, |row| row.undecided);
     text += &worst("lost", report, |row| row.lost);
     let failed = report

@@ -21,6 +21,20 @@ pub(super) fn write(folder: &mut dyn Store, run: &Run, report: &Report) -> Resul
     let attractors = [
         ("rows", "one per value, attractor and jumper"),
         ("period", "forcing periods; empty if not periodic"),
+        ("kind", "periodic, quasi-periodic, chaotic or not-periodic"),
+        (
+            "multiplier",
+            "largest modulus of the Floquet multipliers of a cycle (-)",
+        ),
+        (
+            "exponent, exponent_error",
+            "largest Lyapunov exponent per forcing period where there is no cycle, and its standard error",
+        ),
+        (
+            "lifetime_low",
+            "chaos: none of the watched motions left it, so that its mean lifetime is above this (forcing periods) with \
+             95 % confidence",
+        ),
         ("starts", "first states that lead to it, and their share"),
         ("share_low, share_high", "95 % confidence interval (-)"),
         ("contact_ratio", "part of the time on the floor (-)"),
@@ -41,6 +55,25 @@ pub(super) fn write(folder: &mut dyn Store, run: &Run, report: &Report) -> Resul
             "height over eta = g/omega_h^2, at cos(Omega t) = 1 (-)",
         ),
         ("v", "velocity over eta omega_h, at cos(Omega t) = 1 (-)"),
+    ];
+    let transients = [
+        ("rows", "one per value and chaos that ends"),
+        (
+            "starts",
+            "first states that were in it when their search was over; counted for attractor",
+        ),
+        (
+            "attractor",
+            "number of the one that most watched motions ended on",
+        ),
+        (
+            "motions, ended, periods",
+            "motions watched, how many left it, and forcing periods of chaos of all together",
+        ),
+        (
+            "lifetime, lifetime_low, lifetime_high",
+            "mean, and 95 % confidence interval (forcing periods)",
+        ),
     ];
     let loops = [
         ("rows", "one per loop of hysteresis"),
@@ -90,6 +123,12 @@ pub(super) fn write(folder: &mut dyn Store, run: &Run, report: &Report) -> Resul
         lines(samples),
     )?;
     folder.table(
+        "transients.csv",
+        &[&shared[..3], &transients].concat(),
+        &header(&TRANSIENTS),
+        transient_rows(report),
+    )?;
+    folder.table(
         "loops.csv",
         &[&shared[..3], &loops].concat(),
         &header(&LOOPS),
@@ -97,11 +136,16 @@ pub(super) fn write(folder: &mut dyn Store, run: &Run, report: &Report) -> Resul
     )
 }
 
-const ATTRACTORS: [&str; 11] = [
+const ATTRACTORS: [&str; 16] = [
     "value",
     "attractor",
     "jumper",
     "period",
+    "kind",
+    "multiplier",
+    "exponent",
+    "exponent_error",
+    "lifetime_low",
     "starts",
     "share",
     "share_low",
@@ -119,6 +163,14 @@ fn attractor(row: &Row, one: &Attractor, jumper: usize) -> Vec<Vec<Value>> {
         Value::Integer(one.number as i64),
         Value::Integer(jumper as i64),
         one.period.into(),
+        one.evidence.kind.into(),
+        one.evidence.multiplier.into(),
+        one.evidence.exponent.into(),
+        one.evidence.exponent_error.into(),
+        one.evidence
+            .survival
+            .and_then(|watched| watched.lifetime[1])
+            .into(),
         Value::Integer(one.drawn.starts as i64),
         share.into(),
         low.into(),
@@ -145,6 +197,37 @@ fn samples(row: &Row, one: &Attractor, jumper: usize) -> Vec<Vec<Value>> {
         ]
     };
     samples.enumerate().map(line).collect()
+}
+
+const TRANSIENTS: [&str; 9] = [
+    "value",
+    "starts",
+    "attractor",
+    "motions",
+    "ended",
+    "periods",
+    "lifetime",
+    "lifetime_low",
+    "lifetime_high",
+];
+
+fn transient_rows(report: &Report) -> impl Iterator<Item = Vec<Value>> {
+    let all = report.rows.iter();
+    let all = all.flat_map(|row| row.transients.iter().map(move |one| (row.value, one)));
+    all.map(|(value, one)| {
+        let [mean, low, high] = one.watched.lifetime.map(Value::from);
+        vec![
+            value.into(),
+            Value::Integer(one.drawn.starts as i64),
+            Value::Integer(one.to as i64),
+            Value::Integer(one.watched.motions.into()),
+            Value::Integer(one.watched.ended.into()),
+            Value::Integer(one.watched.periods as i64),
+            mean,
+            low,
+            high,
+        ]
+    })
 }
 
 const LOOPS: [&str; 10] = [

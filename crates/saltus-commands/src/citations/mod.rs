@@ -87,6 +87,10 @@ const STARTS: Uses = &[
 const SHARES: Uses = &[
     ("Wilson1927", "confidence intervals of shares"),
     ("HanleyLippmanHand1983", "bound on basins that no start met"),
+    (
+        "Garwood1936",
+        "confidence intervals of the lifetime of chaos",
+    ),
 ];
 
 fn methods(request: &Request, study: &Study) -> Vec<Uses> {
@@ -114,7 +118,7 @@ fn methods(request: &Request, study: &Study) -> Vec<Uses> {
         Request::Orbit => vec![TANGENTS, ORBITS],
         Request::Continue { .. } => vec![TANGENTS, ORBITS, BRANCHES],
         Request::Lyapunov => vec![TANGENTS, EXPONENTS, DIMENSION],
-        Request::Attractors => vec![TANGENTS, EXPONENTS, STARTS, SHARES],
+        Request::Attractors => vec![TANGENTS, EXPONENTS, ORBITS, STARTS, SHARES],
         Request::Reproduce { .. } => vec![TANGENTS, EXPONENTS, ORBITS, BRANCHES],
     };
     uses.extend(more);

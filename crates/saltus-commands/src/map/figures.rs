@@ -18,11 +18,15 @@ pub(super) fn periods(plane: &Plane, layers: &Layers) -> Figure {
         };
         Class::new(label, Colour::SERIES[i])
     });
+    let chaotic = match layers.tally().chaotic_over {
+        Some(span) => format!("Chaotic for {} periods and more", span.min),
+        None => "Chaotic".to_owned(),
+    };
     let others = [
         Class::new("Another period up to 32", Colour::OTHER),
         // the colour that the periods leave
         Class::new("Quasi-periodic", Colour::SERIES[PERIODS.len()]),
-        Class::new("Chaotic", Colour::IRREGULAR),
+        Class::new(chaotic, Colour::IRREGULAR),
         Class::new("Not periodic", Colour::IRREGULAR),
         Class::new("Undecided", Colour::UNDECIDED),
         Class::new("Failed", Colour::FAILED),

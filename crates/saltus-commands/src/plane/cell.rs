@@ -93,7 +93,8 @@ fn write_motion(motion: &Attractor, out: &mut Writer) {
     out.numbers(&motion.contact_ratio);
     out.numbers(&motion.peak_reaction);
     out.numbers(&[motion.peak_acceleration, motion.rest]);
-    out.numbers(&[motion.confidence.unwrap_or(f64::NAN)]);
+    let given = [motion.confidence, motion.multiplier];
+    out.numbers(&given.map(|value| value.unwrap_or(f64::NAN)));
     out.exponent(motion.exponent);
     let sections = motion.z.iter().chain(&motion.v);
     sections.for_each(|section| out.numbers(section));
@@ -111,7 +112,8 @@ fn motion(from: &mut Reader) -> Option<Attractor> {
     let bodies = usize::try_from(from.whole()?).ok()?;
     let (contact_ratio, peak_reaction) = (from.numbers(bodies)?, from.numbers(bodies)?);
     let (peak_acceleration, rest) = (from.number()?, from.number()?);
-    let confidence = Some(from.number()?).filter(|value| !value.is_nan());
+    let mut given = || Some(Some(from.number()?).filter(|value| !value.is_nan()));
+    let (confidence, multiplier) = (given()?, given()?);
     let exponent = from.exponent()?;
     let (z, v) = (from.lists(bodies, samples)?, from.lists(bodies, samples)?);
     let range = |_| {
@@ -129,6 +131,7 @@ fn motion(from: &mut Reader) -> Option<Attractor> {
         v,
         ranges: (0..bodies).map(range).collect::<Option<_>>()?,
         rest,
+        multiplier,
         exponent,
         confidence,
     })
@@ -151,6 +154,7 @@ mod tests {
             v: vec![vec![5.0, 6.0], vec![7.0, 8.0]],
             ranges: vec![([1.0, 2.0], [5.0, 6.0]), ([3.0, 4.0], [7.0, 8.0])],
             rest: 1e-9,
+            multiplier: Some(0.75),
             exponent: None,
             confidence: None,
         };
@@ -163,6 +167,7 @@ mod tests {
                 batch_length: 64,
             }),
             confidence: Some(0.9999),
+            multiplier: None,
             z: vec![vec![]; 2],
             v: vec![vec![]; 2],
             ..cycle.clone()

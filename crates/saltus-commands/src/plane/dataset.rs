@@ -1,7 +1,7 @@
 //! The plane as a dataset for xarray and its like.
 
 use super::{Layers, Plane, Status};
-use crate::dataset::{about, coordinate};
+use crate::dataset::{about, coordinate, wholes};
 use crate::per_jumper::column;
 use saltus_config::Study;
 use saltus_results::{Dataset, Variable};
@@ -12,6 +12,7 @@ pub(crate) fn dataset(title: &str, study: &Study, plane: &Plane, layers: Layers)
     let over = [y.as_str(), x.as_str()];
     let jumpers = study.jumper.len();
     let status: Vec<u8> = layers.status.iter().map(|&status| status as u8).collect();
+    let chaotic = layers.chaotic_periods();
     let meanings = Status::ALL.map(|status| (status as i32, status.name().replace('-', "_")));
     let mut dataset = about(title, study)
         .coordinate(coordinate(&plane.y.parameter, &plane.grid.y))
@@ -70,14 +71,26 @@ pub(crate) fn dataset(title: &str, study: &Study, plane: &Plane, layers: Layers)
                     .units("1"),
             );
     }
-    let run: Vec<i32> = layers
-        .periods_run
-        .iter()
-        .map(|&n| i32::try_from(n).unwrap_or(i32::MAX))
-        .collect();
-    dataset.variable(
-        Variable::new("periods_run", &over, run)
-            .long_name("Forcing periods computed")
-            .units("1"),
-    )
+    let counts = [
+        (
+            "periods_run",
+            "Forcing periods computed",
+            layers.periods_run,
+        ),
+        (
+            "chaotic_periods",
+            "Forcing periods over which a chaotic motion was seen not to settle, 0 where it is not chaotic",
+            chaotic,
+        ),
+    ];
+    counts
+        .into_iter()
+        .fold(dataset, |set, (name, meaning, counts)| {
+            let counts: Vec<i32> = wholes(counts);
+            set.variable(
+                Variable::new(name, &over, counts)
+                    .long_name(meaning)
+                    .units("1"),
+            )
+        })
 }

@@ -118,6 +118,8 @@ impl FirstFailure {
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Tally {
     status: BTreeMap<&'static str, usize>,
+    /// Fewest and most forcing periods over which a chaotic motion was seen not to settle.
+    pub(crate) chaotic_over: Option<Span>,
     pub(crate) periods: Vec<PeriodShare>,
 }
 
@@ -186,10 +188,23 @@ impl Layers {
             pixels,
             share: pixels as f64 / self.status.len() as f64,
         };
+        let chaotic = self.chaotic_periods();
+        let chaotic = chaotic.into_iter().filter(|&periods| periods > 0);
         Tally {
             status,
+            chaotic_over: span(&chaotic.map(f64::from).collect::<Vec<_>>()),
             periods: periods.into_iter().map(share).collect(),
         }
+    }
+
+    /// Forcing periods over which each chaotic motion was seen not to settle; 0 where the motion is not chaotic.
+    pub(crate) fn chaotic_periods(&self) -> Vec<u32> {
+        let pixels = self.status.iter().zip(&self.periods_run);
+        let chaotic = |(&status, &run): (&Status, &u32)| match status {
+            Status::Chaotic => run,
+            _ => 0,
+        };
+        pixels.map(chaotic).collect()
     }
 
     /// Nothing is worth keeping if there is no motion anywhere.
@@ -237,7 +252,11 @@ impl Tally {
         let others = Status::ALL.iter().filter_map(|status| {
             let pixels = self.status.get(status.name())?;
             let shown = status.name() != periodic;
-            shown.then(|| format!("  {:>5.1} %  {}", percent(*pixels), status.name()))
+            let over = self.chaotic_over.filter(|_| *status == Status::Chaotic);
+            let over = over.map_or(String::new(), |span| {
+                format!(" for {} periods and more", span.min)
+            });
+            shown.then(|| format!("  {:>5.1} %  {}{over}", percent(*pixels), status.name()))
         });
         lines.extend(others);
         lines.join("\n") + "\n"

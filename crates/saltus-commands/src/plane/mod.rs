@@ -72,6 +72,9 @@ impl PlaneAxis {
     }
 }
 
+/// Part of the forcing periods allowed for an exponent for which chaos is run on, to see whether it lasts.
+const WATCH: u32 = 3;
+
 impl Plane {
     pub(super) fn new(
         x: &AxisTable,
@@ -91,6 +94,7 @@ impl Plane {
                 transient: transient.into(),
                 record: record.into(),
                 exponent: exponent.into(),
+                watch: (exponent / WATCH).into(),
                 ..Search::default()
             },
         })

@@ -21,7 +21,7 @@ use std::io::{self, Write};
 /// Periods of the time history at most: what a figure can show, and little memory however long the run.
 const HISTORY: u32 = 20;
 
-/// Points of the time history per period: a peak of the force is met to about 1e-4.
+/// Points of the time history per period: more than a figure shows.
 const POINTS: u32 = 400;
 
 /// A run with what it ran.

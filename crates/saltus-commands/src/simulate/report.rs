@@ -79,8 +79,8 @@ fn contact_ratio(run: &Run) -> PerJumper<f64> {
 
 /// Largest in the time history; none if the run ended before it.
 fn peak_force(run: &Run) -> PerJumper<Option<f64>> {
-    let states = &run.trajectory.history.states;
-    let peak = |i: usize| states.iter().map(|s| s.prf[i]).reduce(f64::max);
+    let peaks = &run.trajectory.peak_reaction;
+    let peak = |i: usize| peaks.get(i).copied();
     (0..run.jumpers()).map(peak).collect()
 }
 

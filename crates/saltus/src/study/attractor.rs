@@ -1,10 +1,11 @@
 //! Which attractor does a start lead to? One answer per start, for maps of parameters and of starts.
 //!
 //! A start is run until it is surely on a cycle (see [`Samples`]), or for the whole transient; then
-//! the cycle once, or the recording, with dense output for peaks. A motion that is still on its way to a cycle then is
+//! the cycle once, or the recording, with dense output for peaks. Where samples leave a doubt, Newton's method says
+//! which stable cycle it is, if any (`confirm`). A motion that is still on its way then is
 //! given four times as long. What still has no period is run on with its tangent, until its largest
-//! exponent tells what it is (`doubt`). Starts are independent of each other to
-//! the bit: so any part of a map can be computed at any time, by any number of threads.
+//! exponent tells what it is (`doubt`), and chaos once more, to see whether it lasts. Starts are independent of each
+//! other to the bit: so any part of a map can be computed at any time, by any number of threads.
 
 use std::sync::OnceLock;
 
@@ -12,10 +13,11 @@ use saltus_hybrid::integrate_stream;
 use saltus_hybrid::{End, IntegrateError, Leg, Point, Sample, Status, Step, System, Task};
 use saltus_orbits::{Closeness, Exponent, OnCycle, Recurrence, Samples};
 
+use super::confirm::{self, Near};
 use super::doubt::{self, Doubtful};
-use super::peaks::Peaks;
+use super::recording::{Recording, around};
 use super::{Control, StudyError};
-use crate::model::{Contact, Model, ModelError, Probe};
+use crate::model::{Model, ModelError};
 
 /// How long to look.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,17 +32,26 @@ pub struct Search {
     /// Forcing periods, at most, over which the largest exponent of a motion without a period is followed, to
     /// say what it is. 0 leaves it at [`Kind::NotPeriodic`].
     pub exponent: u64,
+    /// Forcing periods for which a motion that was found to be chaotic is run on, to see whether it stays so. A
+    /// transient that outlives all of these is called chaotic; [`Found::periods`] says over how many it was seen.
+    pub watch: u64,
+    /// Whether Newton's method confirms every cycle, and not only those of which the samples leave a doubt: for
+    /// motions that were carried to where they start, since those may sit on an unstable one.
+    pub confirm: bool,
 }
 
 impl Default for Search {
     /// 400 periods: the paper's plate modes lose a tenth of their amplitude per period. 64 recorded show
-    /// each period up to 32 twice. 2000 tell an exponent of 0.02 from zero.
+    /// each period up to 32 twice. 2000 tell an exponent of 0.02 from zero. Watching for as long again as it takes to
+    /// find chaos, some 600 periods, costs a map of the paper's plane WATCH_COST.
     fn default() -> Self {
         Self {
             transient: 400,
             record: 64,
             early_stop: true,
             exponent: 2000,
+            watch: 2000 / 3,
+            confirm: false,
         }
     }
 }
@@ -70,6 +81,26 @@ impl Found {
     fn has_no_period(&self) -> bool {
         let kind = self.attractor.as_ref().map(|motion| motion.kind);
         matches!(kind, Ok(Kind::NotPeriodic | Kind::Undecided))
+    }
+
+    fn is_chaotic(&self) -> bool {
+        let kind = self.attractor.as_ref().map(|motion| motion.kind);
+        kind == Ok(Kind::Chaotic)
+    }
+
+    /// This chaotic motion, run on to what `later` says: still without a period, or not.
+    fn followed_by(&self, later: Self) -> Self {
+        let periods = self.periods + later.periods;
+        let chaotic = matches!(&later.attractor, Ok(motion) if motion.kind == Kind::NotPeriodic);
+        Self {
+            periods,
+            attractor: if chaotic {
+                self.attractor.clone()
+            } else {
+                later.attractor
+            },
+            arrival: later.arrival,
+        }
     }
 }
 
@@ -138,8 +169,10 @@ pub struct Attractor {
     pub v: Vec<Vec<f64>>,
     /// Ranges of z and v of each body at the recorded samples.
     pub ranges: Vec<(Range, Range)>,
-    /// What may be left of the transient (eta); 0 if not periodic.
+    /// What may be left of the transient (eta); 0 if not periodic, and of a cycle that Newton's method gave.
     pub rest: f64,
+    /// Largest modulus of the Floquet multipliers of a cycle, below 1, where Newton's method confirmed it.
+    pub multiplier: Option<f64>,
     /// The largest Lyapunov exponent (per forcing period), where it took one to say what the motion is.
     pub exponent: Option<Exponent>,
     /// Confidence of the test by which it got its name, or of the sign of the exponent where it is undecided (see
@@ -167,27 +200,61 @@ where
     E: From<StudyError> + Send,
 {
     let mut doubtful = Vec::new();
-    let mut later = round(
-        starts.into_iter(),
+    rounds(starts, &start_at, search, control, |number, found| {
+        if search.exponent > 0 && found.has_no_period() {
+            doubtful.push(Doubtful::new(number, found));
+            return Ok(());
+        }
+        sink(number, found)
+    })?;
+    let mut chaotic = Vec::new();
+    doubt::settle(
+        doubtful,
         &start_at,
         search,
         control,
-        &mut doubtful,
-        &mut sink,
+        &mut |number, found: Found| {
+            if search.watch > 0 && found.is_chaotic() {
+                chaotic.push((number, found));
+                return Ok(());
+            }
+            sink(number, found)
+        },
     )?;
-    // Systems of another structure cannot share lanes with the first ones, but with each other.
-    while !later.is_empty() {
-        later.sort_unstable();
-        later = round(
-            later.into_iter(),
-            &start_at,
-            search,
-            control,
-            &mut doubtful,
-            &mut sink,
-        )?;
-    }
-    doubt::settle(doubtful, &start_at, search, control, &mut sink)
+    watch(chaotic, &start_at, search, control, &mut sink)
+}
+
+/// Runs chaotic motions on, into `sink`: as what they become, or as chaotic over so many periods more.
+fn watch<F, E>(
+    mut chaotic: Vec<(usize, Found)>,
+    start_at: &F,
+    search: &Search,
+    control: &Control,
+    sink: &mut (impl FnMut(usize, Found) -> Result<(), E> + Send),
+) -> Result<(), E>
+where
+    F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
+    E: From<StudyError> + Send,
+{
+    // In an order of their own, whatever threads found them.
+    chaotic.sort_by_key(|one| one.0);
+    let search = Search {
+        transient: search.watch,
+        exponent: 0,
+        ..*search
+    };
+    let ends: Vec<(usize, Point)> = chaotic
+        .iter()
+        .filter_map(|(number, found)| Some((*number, found.arrival.as_ref()?.point.clone())))
+        .collect();
+    let go_on = |i: usize| {
+        let (number, point) = &ends[i];
+        Ok((start_at(*number)?.0, point.clone()))
+    };
+    rounds(0..ends.len(), &go_on, &search, control, |i, later| {
+        let (number, before) = &chaotic[i];
+        sink(*number, before.followed_by(later))
+    })
 }
 
 /// An error of the engine or of the sink.
@@ -211,13 +278,32 @@ impl<E> From<IntegrateError> for Refused<E> {
     }
 }
 
+/// Runs all starts, those whose systems share a structure together: the others cannot share lanes with them.
+fn rounds<F, E>(
+    starts: impl IntoIterator<Item = usize, IntoIter: Send>,
+    start_at: &F,
+    search: &Search,
+    control: &Control,
+    mut sink: impl FnMut(usize, Found) -> Result<(), E> + Send,
+) -> Result<(), E>
+where
+    F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
+    E: From<StudyError> + Send,
+{
+    let mut later = round(starts.into_iter(), start_at, search, control, &mut sink)?;
+    while !later.is_empty() {
+        later.sort_unstable();
+        later = round(later.into_iter(), start_at, search, control, &mut sink)?;
+    }
+    Ok(())
+}
+
 /// Runs all starts whose systems share the structure of the first; gives back the others.
 fn round<F, E>(
     starts: impl Iterator<Item = usize> + Send,
     start_at: &F,
     search: &Search,
     control: &Control,
-    doubtful: &mut Vec<Doubtful>,
     sink: &mut (impl FnMut(usize, Found) -> Result<(), E> + Send),
 ) -> Result<Vec<usize>, E>
 where
@@ -237,10 +323,6 @@ where
         extended: false,
     });
     let take = |task: Pursuit<'_, F>| match task.found {
-        Some(found) if search.exponent > 0 && found.has_no_period() => {
-            doubtful.push(Doubtful::new(task.number, found));
-            Ok(())
-        }
         Some(found) => sink(task.number, found).map_err(Refused::Sink),
         None => {
             later.push(task.number);
@@ -272,8 +354,9 @@ struct Pursuit<'a, F> {
     extended: bool,
 }
 
-/// Times the transient that a motion on its way gets.
+/// Times the transient that a motion on its way gets, and forcing periods at most.
 const PATIENCE: u64 = 4;
+const LONGEST: u64 = 4000;
 
 /// What is kept of a motion while it runs.
 struct Motion {
@@ -283,18 +366,6 @@ struct Motion {
     settled: Option<OnCycle>,
     recording: Option<Recording>,
     periods: u64,
-}
-
-/// What is kept while recording, period by period.
-struct Recording {
-    probe: Probe,
-    peaks: Peaks,
-    /// Time of each body on the floor.
-    stance: Vec<Vec<f64>>,
-    /// Largest floor acceleration, and reaction of each body.
-    tops: Vec<Vec<f64>>,
-    /// Of z and v of each body at the samples.
-    ranges: Vec<(Range, Range)>,
 }
 
 /// Samples between two looks whether the motion has settled.
@@ -374,24 +445,23 @@ where
                 arrival: None,
             });
         } else if let Some(recording) = motion.recording.take() {
-            if !self.extended && motion.judge() == Recurrence::Drifting {
-                self.extended = true;
-                return Some(Leg {
-                    system: motion.model.system().clone(),
-                    start: end.point,
-                    periods: PATIENCE * self.search.transient,
-                });
+            match motion.conclude(&recording, &end.point, self.search, self.control) {
+                Conclusion::GoOn(start) if !self.extended => {
+                    self.extended = true;
+                    return Some(Leg {
+                        system: motion.model.system().clone(),
+                        start,
+                        periods: (PATIENCE * self.search.transient).min(LONGEST),
+                    });
+                }
+                Conclusion::GoOn(point) => {
+                    let (attractor, section) = motion.as_it_looks(&recording, Kind::Undecided);
+                    self.found = Some(motion.found(attractor, Arrival { point, section }));
+                }
+                Conclusion::Is(attractor, arrival) => {
+                    self.found = Some(motion.found(attractor, arrival));
+                }
             }
-            let attractor = motion.attractor(&recording);
-            let section = motion.section(attractor.kind, recording.stance.len());
-            self.found = Some(Found {
-                attractor: Ok(attractor),
-                periods: motion.periods,
-                arrival: Some(Arrival {
-                    point: end.point,
-                    section,
-                }),
-            });
         } else {
             motion.recording = Some(Recording::new(&motion.model));
             let whole = self.search.record;
@@ -407,118 +477,81 @@ where
     }
 }
 
-impl Recording {
-    fn new(model: &Model) -> Self {
-        let bodies = model.setup().jumpers.len();
-        Self {
-            probe: model.probe(),
-            peaks: Peaks::new(1 + bodies, model.system().state_len()),
-            stance: Vec::new(),
-            tops: Vec::new(),
-            ranges: vec![(NOTHING, NOTHING); bodies],
-        }
-    }
-
-    fn step(&mut self, step: &Step<'_>) {
-        let probe = &mut self.probe;
-        self.peaks.step(step, |x, out| {
-            let reading = probe.read(step.modes, x);
-            out[0] = reading.floor.first().map_or(0.0, |a| a.abs());
-            out[1..].copy_from_slice(reading.reaction);
-        });
-    }
-
-    fn end_period(&mut self, model: &Model, sample: &Sample<'_>) {
-        for (body, (z, v)) in self.ranges.iter_mut().enumerate() {
-            *z = widened(*z, model.z(body, sample.x));
-            *v = widened(*v, model.v(body, sample.x));
-        }
-        let on_floor = |&(mode, _): &(usize, &f64)| Contact::of(mode) == Contact::Stance;
-        let stance = |dwell: &Vec<f64>| -> f64 {
-            let times = dwell.iter().enumerate().filter(on_floor);
-            times.map(|(_, time)| time).sum()
-        };
-        self.stance.push(sample.dwell.iter().map(stance).collect());
-        self.tops.push(self.peaks.largest.clone());
-        self.peaks.clear();
-    }
+/// What is to be said of a motion, or to be done with it.
+enum Conclusion {
+    Is(Attractor, Arrival),
+    /// It is on its way, and should be run on from here.
+    GoOn(Point),
 }
 
 impl Motion {
-    /// Whether the motion has settled, from all its samples.
-    fn judge(&self) -> Recurrence {
-        self.settled
-            .map_or_else(|| self.samples.judge(), Recurrence::from)
-    }
-
-    /// What the whole motion says.
-    fn attractor(&self, recording: &Recording) -> Attractor {
-        let (kind, rest) = match self.judge() {
-            Recurrence::Recurs { period, rest } => (Kind::Periodic(period), rest),
-            Recurrence::Drifting => (Kind::Undecided, 0.0),
-            Recurrence::Open => (Kind::NotPeriodic, 0.0),
-        };
-        let recorded = recording.stance.len();
-        // whole cycles only, the last ones
-        let used = match kind {
-            Kind::Periodic(n) if n as usize <= recorded => recorded - recorded % n as usize,
-            _ => recorded,
-        };
-        let (stance, tops) = (
-            &recording.stance[recorded - used..],
-            &recording.tops[recorded - used..],
-        );
-        let bodies = self.model.setup().jumpers.len();
-        let time = used as f64 * self.model.system().period();
-        let on_floor = |body: usize| stance.iter().map(|s| s[body]).sum::<f64>() / time;
-        let top = |channel: usize| {
-            tops.iter()
-                .fold(0.0, |most: f64, top| most.max(top[channel]))
-        };
-        let samples = match kind {
-            Kind::Periodic(n) => n as usize,
-            _ => 0,
-        };
-        // z of all bodies come first in a sample, then v of all
-        let section = |column: usize| -> Vec<f64> {
-            let backwards = (0..samples).rev();
-            backwards
-                .map(|back| self.samples.back(back)[column])
-                .collect()
-        };
-        Attractor {
-            kind,
-            contact_ratio: (0..bodies).map(on_floor).collect(),
-            peak_reaction: (0..bodies).map(|body| top(1 + body)).collect(),
-            peak_acceleration: top(0),
-            z: (0..bodies).map(section).collect(),
-            v: (bodies..2 * bodies).map(section).collect(),
-            ranges: recording.ranges.clone(),
-            rest,
-            exponent: None,
-            confidence: None,
+    fn found(&self, attractor: Attractor, arrival: Arrival) -> Found {
+        Found {
+            attractor: Ok(attractor),
+            periods: self.periods,
+            arrival: Some(arrival),
         }
     }
 
-    /// The samples of the cycle, or of the last `recorded` periods.
-    fn section(&self, kind: Kind, recorded: usize) -> Vec<Vec<[f64; 2]>> {
+    /// What the whole motion says, which has come to `end`.
+    fn conclude(
+        &mut self,
+        recording: &Recording,
+        end: &Point,
+        search: &Search,
+        control: &Control,
+    ) -> Conclusion {
+        let on = self
+            .settled
+            .take()
+            .or_else(|| self.samples.settled(Closeness::FAIR));
+        let looks = |motion: &Self, kind: Kind, rest: f64| {
+            let (attractor, section) = motion.as_it_looks(recording, kind);
+            let arrival = Arrival {
+                point: end.clone(),
+                section,
+            };
+            Conclusion::Is(Attractor { rest, ..attractor }, arrival)
+        };
+        if let Some(on) = on.filter(|on| on.is_sure() && !search.confirm) {
+            return looks(self, Kind::Periodic(on.period), on.rest);
+        }
+        match confirm::cycle(&self.model, end, &self.samples, control) {
+            Near::Stable(orbit) => match around(&self.model, &orbit, control) {
+                Some((attractor, arrival)) => Conclusion::Is(attractor, arrival),
+                None => Conclusion::GoOn(end.clone()),
+            },
+            Near::Unstable(orbit) => {
+                self.samples = Samples::new(width(&self.model));
+                Conclusion::GoOn(confirm::beside(&self.model, &orbit))
+            }
+            Near::Nothing if on.is_some() || self.samples.judge() == Recurrence::Drifting => {
+                Conclusion::GoOn(end.clone())
+            }
+            Near::Nothing => looks(self, Kind::NotPeriodic, 0.0),
+        }
+    }
+
+    /// A motion of this kind, as its last samples and the recording show it, and its section: the samples of the cycle, or
+    /// of the last recorded periods.
+    fn as_it_looks(&self, recording: &Recording, kind: Kind) -> (Attractor, Vec<Vec<[f64; 2]>>) {
         let count = match kind {
             Kind::Periodic(n) => n as usize,
-            _ => recorded.min(Samples::ROWS),
+            _ => recording
+                .periods()
+                .min(Samples::ROWS)
+                .min(self.samples.count()),
         };
+        // z of all bodies come first in a sample, then v of all
         let bodies = self.model.setup().jumpers.len();
         let of = |body: usize| {
             let rows = (0..count).rev().map(|back| self.samples.back(back));
             rows.map(|row| [row[body], row[bodies + body]]).collect()
         };
-        (0..bodies).map(of).collect()
+        let section: Vec<Vec<[f64; 2]>> = (0..bodies).map(of).collect();
+        let attractor = recording.motion(&self.model, kind, &section);
+        (attractor, section)
     }
-}
-
-const NOTHING: Range = [f64::INFINITY, f64::NEG_INFINITY];
-
-fn widened([low, high]: Range, value: f64) -> Range {
-    [low.min(value), high.max(value)]
 }
 
 /// Numbers in a sample: z and v of each body, then r_j and r_j', then what a leg remembers.

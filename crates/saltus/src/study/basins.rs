@@ -81,7 +81,9 @@ impl Catalogue {
         for (all, one) in entry.ranges.iter_mut().zip(&motion.ranges) {
             *all = (hull(all.0, one.0), hull(all.1, one.1));
         }
-        if motion.rest < entry.attractor.rest {
+        // one that Newton's method confirmed stands before all others
+        let closeness = |motion: &Attractor| (motion.multiplier.is_none(), motion.rest);
+        if closeness(&motion) < closeness(&entry.attractor) {
             entry.attractor = motion;
             entry.closest = start;
         }
@@ -163,6 +165,7 @@ mod tests {
             v: vec![z.iter().map(|z| 2.0 * z).collect()],
             ranges: vec![(range, range)],
             rest,
+            multiplier: None,
             exponent: None,
             confidence: None,
         }

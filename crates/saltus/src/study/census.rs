@@ -1,10 +1,14 @@
 //! The attractors of one model, as starts from a box lead to them, and what part of the box each draws.
+//!
+//! Each comes with the evidence that it is one: a cycle with its Floquet multipliers, a torus with an exponent that is
+//! zero, chaos with an exponent and with motions that were watched and did not leave it.
 
 use super::attractor::{Arrival, Found, Kind, Lost};
 use super::basins::{Catalogue, Entry};
 use super::fraction::Fraction;
+use super::survival::Survival;
 use saltus_hybrid::Point;
-use saltus_orbits::Closeness;
+use std::collections::BTreeSet;
 
 /// What all starts of a box came to. The counts add up to the number of starts.
 ///
@@ -13,7 +17,10 @@ use saltus_orbits::Closeness;
 pub struct Census {
     /// The attractors, those with the most starts first.
     pub attractors: Vec<Counted>,
-    /// Starts still on their way after eight searches; they count for no attractor.
+    /// Chaos that looked like an attractor and ends.
+    pub transients: Vec<Transient>,
+    /// Starts still on their way after eight searches, or on a cycle that is not known to be stable; they count for no
+    /// attractor.
     pub undecided: Fraction,
     /// Starts whose run ended early.
     pub lost: Fraction,
@@ -32,6 +39,19 @@ pub struct Counted {
     pub fraction: Fraction,
     /// A state on it, to go on from, and its section.
     pub arrival: Arrival,
+    /// Of chaos: how long it was watched. None of the motions left it.
+    pub survival: Option<Survival>,
+}
+
+/// Chaos that is no attractor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Transient {
+    /// Part of the starts that were in it when their search was over. They count for the attractor that it ends on.
+    pub fraction: Fraction,
+    /// How long it lasts.
+    pub survival: Survival,
+    /// Place in [`Census::attractors`] of the one that most of the watched motions ended on.
+    pub to: usize,
 }
 
 /// A census under way.
@@ -40,6 +60,10 @@ pub(super) struct Tally {
     catalogue: Catalogue,
     /// Of each entry's closest motion.
     arrivals: Vec<Arrival>,
+    /// Of each entry that is chaotic, once it was watched.
+    survivals: Vec<Option<Survival>>,
+    /// Entries that turned out to be no attractors, and lead to none that is known.
+    refuted: BTreeSet<usize>,
     /// Motions met, carried ones included.
     met: usize,
     starts: u64,
@@ -80,6 +104,7 @@ impl Tally {
         let Some(number) = number else { return };
         if number == self.arrivals.len() {
             self.arrivals.push(arrival);
+            self.survivals.push(None);
         } else if self.catalogue.entries()[number].closest == self.met {
             self.arrivals[number] = arrival;
         }
@@ -95,30 +120,55 @@ impl Tally {
         &self.arrivals[number].point
     }
 
-    /// Whether attractor `number` is a cycle on which a motion surely was.
-    pub(super) fn is_sure(&self, number: usize) -> bool {
-        let motion = &self.catalogue.entries()[number].attractor;
-        matches!(motion.kind, Kind::Periodic(_)) && motion.rest <= Closeness::TIGHT.rest
+    /// What kind of motion attractor `number` is.
+    pub(super) fn kind(&self, number: usize) -> Kind {
+        self.catalogue.entries()[number].attractor.kind
     }
 
-    /// The census, and the place in it of each number. What was a transient to `root[number]` is no attractor,
-    /// and its starts count for that one.
-    pub(super) fn ranked(mut self, root: &[usize]) -> (Census, Vec<usize>) {
+    /// Whether there is evidence that attractor `number` is one.
+    pub(super) fn is_proved(&self, number: usize) -> bool {
+        match self.kind(number) {
+            Kind::Periodic(_) => {
+                let motion = &self.catalogue.entries()[number].attractor;
+                motion.multiplier.is_some()
+            }
+            Kind::Chaotic | Kind::NotPeriodic => self.survivals[number].is_some(),
+            Kind::QuasiPeriodic | Kind::Undecided => true,
+        }
+    }
+
+    /// Notes how long the chaos of attractor `number` lasted.
+    pub(super) fn watched(&mut self, number: usize, survival: Survival) {
+        self.survivals[number] = Some(survival);
+    }
+
+    /// Notes that attractor `number` is none.
+    pub(super) fn refute(&mut self, number: usize) {
+        self.refuted.insert(number);
+    }
+
+    /// The census, and the place in it of each number; `None` for one that is no attractor. What was a transient to
+    /// `root[number]` is none either, and its starts count for that one.
+    pub(super) fn ranked(mut self, root: &[usize]) -> (Census, Vec<Option<usize>>) {
         let of = self.starts;
         let fraction = |count| Fraction { count, of };
-        for (number, &root) in root
-            .iter()
-            .enumerate()
-            .filter(|(number, root)| number != *root)
-        {
-            self.catalogue.count_for(number, root);
+        let mut transients = Vec::new();
+        for (number, &root) in root.iter().enumerate() {
+            let count = self.catalogue.entries()[number].count;
+            if self.refuted.contains(&root) {
+                self.undecided += count;
+            } else if number != root {
+                let chaos = self.survivals[number].filter(|survival| survival.ended > 0);
+                transients.extend(chaos.map(|survival| (fraction(count), survival, root)));
+                self.catalogue.count_for(number, root);
+            }
         }
         let (entries, rank) = self.catalogue.ranked();
         let mut kept: Vec<usize> = (0..root.len())
-            .filter(|&number| root[number] == number)
+            .filter(|number| root[*number] == *number && !self.refuted.contains(number))
             .collect();
         kept.sort_by_key(|&number| rank[number]);
-        let place = |root: &usize| kept.iter().position(|number| number == root).unwrap_or(0);
+        let place = |root: &usize| kept.iter().position(|number| number == root);
         let counted = |(identity, &number): (usize, &usize)| {
             let entry = entries[rank[number]].clone();
             Counted {
@@ -126,10 +176,20 @@ impl Tally {
                 fraction: fraction(entry.count),
                 entry,
                 arrival: self.arrivals[number].clone(),
+                survival: self.survivals[number],
             }
+        };
+        let transient = |(fraction, survival, root): (Fraction, Survival, usize)| {
+            let to = place(&root)?;
+            Some(Transient {
+                fraction,
+                survival,
+                to,
+            })
         };
         let census = Census {
             attractors: kept.iter().enumerate().map(counted).collect(),
+            transients: transients.into_iter().filter_map(transient).collect(),
             undecided: fraction(self.undecided),
             lost: fraction(self.lost),
             first_lost: self.first_lost,

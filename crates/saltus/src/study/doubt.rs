@@ -1,15 +1,17 @@
 //! What is a motion without a period? Its tangent is followed until the largest exponent tells.
 //!
 //! The verdict is [`judge`]'s, asked for whenever the record has doubled; samples go on to be taken, so a cycle
-//! that is reached meanwhile is found. Systems with and without tangents cannot share lanes, so this is a
-//! second round, for those that need it.
+//! that is reached meanwhile is found, and confirmed by its multipliers. Systems with and without tangents cannot
+//! share lanes, so this is a second round, for those that need it.
 
 use std::sync::OnceLock;
 
 use saltus_hybrid::{End, Leg, Method, Point, Sample, Status, System, Task, integrate_stream};
-use saltus_orbits::{Criteria, Nature, Recurrence, Samples, Spectrum, Verdict, judge};
+use saltus_orbits::{Criteria, Nature, Samples, Spectrum, Verdict, judge};
 
 use super::attractor::{Found, Kind, Lost, Refused, coordinates, width};
+use super::confirm::{self, Near};
+use super::recording::around;
 use super::{Control, Search, StudyError};
 use crate::model::{Model, ModelError};
 
@@ -108,7 +110,7 @@ struct Motion {
     /// Periods recorded, and those after which to judge.
     recorded: u64,
     look: u64,
-    verdict: Option<(Verdict, Recurrence)>,
+    verdict: Option<Verdict>,
     lost: bool,
 }
 
@@ -193,9 +195,7 @@ where
             motion.judge(self.criteria);
             motion.look *= 2;
         }
-        let open = motion
-            .verdict
-            .is_none_or(|(verdict, _)| verdict.needs_more());
+        let open = motion.verdict.is_none_or(|verdict| verdict.needs_more());
         open && !motion.lost
     }
 
@@ -215,10 +215,7 @@ where
             found.arrival = None;
             return None;
         }
-        if motion
-            .verdict
-            .is_none_or(|(verdict, _)| verdict.needs_more())
-        {
+        if motion.verdict.is_none_or(|verdict| verdict.needs_more()) {
             motion.judge(self.criteria);
         }
         if let Some(arrival) = &mut found.arrival {
@@ -228,49 +225,38 @@ where
                 x: end.point.x[..states].to_vec(),
             };
         }
-        motion.name(found);
+        motion.name(found, self.control);
         None
     }
 }
 
 impl Motion {
     fn judge(&mut self, criteria: &Criteria) {
-        let again = self.samples.judge();
-        self.verdict = Some((judge(&self.spectrum, again, criteria), again));
+        self.verdict = Some(judge(&self.spectrum, self.samples.judge(), criteria));
     }
 
-    /// Writes the verdict down.
-    fn name(&self, found: &mut Found) {
-        let (Ok(motion), Some((verdict, again))) = (&mut found.attractor, self.verdict) else {
+    /// Writes the verdict down. A cycle is one that Newton's method finds, and the motion's own.
+    fn name(&self, found: &mut Found, control: &Control) {
+        let (Ok(motion), Some(verdict), Some(arrival)) =
+            (&mut found.attractor, self.verdict, &mut found.arrival)
+        else {
             return;
         };
+        if !matches!(verdict.nature, Nature::Chaotic | Nature::QuasiPeriodic) {
+            let near = confirm::cycle(&self.model, &arrival.point, &self.samples, control);
+            if let Near::Stable(orbit) = near
+                && let Some(cycle) = around(&self.model, &orbit, control)
+            {
+                (*motion, *arrival) = cycle;
+                return;
+            }
+        }
         motion.exponent = Some(verdict.exponent);
         motion.confidence = Some(verdict.confidence);
         motion.kind = match verdict.nature {
-            Nature::Periodic(n) => Kind::Periodic(n),
             Nature::QuasiPeriodic => Kind::QuasiPeriodic,
             Nature::Chaotic => Kind::Chaotic,
-            Nature::Undecided(_) => Kind::Undecided,
+            Nature::Periodic(_) | Nature::Undecided(_) => Kind::Undecided,
         };
-        if let (Kind::Periodic(n), Recurrence::Recurs { rest, .. }) = (motion.kind, again) {
-            let bodies = motion.z.len();
-            let column = |i: usize| {
-                (0..n as usize)
-                    .rev()
-                    .map(move |back| self.samples.back(back)[i])
-            };
-            motion.rest = rest;
-            motion.z = (0..bodies).map(|body| column(body).collect()).collect();
-            motion.v = (bodies..2 * bodies)
-                .map(|body| column(body).collect())
-                .collect();
-            if let Some(arrival) = &mut found.arrival {
-                let pairs = |body: usize| {
-                    let pairs = column(body).zip(column(bodies + body));
-                    pairs.map(|(z, v)| [z, v]).collect()
-                };
-                arrival.section = (0..bodies).map(pairs).collect();
-            }
-        }
     }
 }

@@ -5,9 +5,12 @@
 //! attractor that a start met at one value is looked for at all values up to where it ends, and those that are
 //! the same are known by the dynamics and not by their looks: "seeded continuation" [DRW 2023].
 //!
-//! What has not surely settled is first run on in place. A slow transient that looked like a band or a longer
-//! cycle becomes what it leads to, and its starts count for that. A start or a carried motion that is undecided, say
-//! at a period doubling, is run on likewise; a carried one that stays undecided goes to the next value as it is.
+//! Each attractor needs evidence that it is one before it is carried. A cycle must be one that Newton's method finds,
+//! with all Floquet multipliers inside the unit circle; one that is not is run on, and becomes what it leads to or
+//! counts for nothing. Chaos is watched: eight motions on it for 12 000 periods each. If any of them ends on a cycle
+//! it is a transient with a lifetime, and its starts count for what it ends on ([`Survival`]). A start or a carried
+//! motion that is undecided, say at a period doubling, is run on likewise; a carried one that stays undecided goes to
+//! the next value as it is.
 //!
 //! `matching` says when two attractors are the same, and `lineages` what follows.
 
@@ -17,7 +20,8 @@ use std::sync::atomic::Ordering;
 use super::census::{Census, Tally};
 use super::lineages::{Lineages, Row};
 use super::matching::{Links, Node, Way};
-use super::{Control, Found, Search, Starts, StudyError, attractors};
+use super::survival::Survival;
+use super::{Control, Found, Kind, Search, Starts, StudyError, attractors};
 use crate::model::{Model, ModelError};
 use saltus_hybrid::{IntegrateError, Point};
 
@@ -76,6 +80,7 @@ where
         places,
         became: BTreeMap::new(),
         links: Links::new(),
+        unwatched: Vec::new(),
         search,
         control,
     };
@@ -86,6 +91,14 @@ where
 
 /// Searches, one after the other, by which an attractor is confirmed and an undecided motion given up.
 const PATIENCE: usize = 8;
+
+/// Motions that are watched in chaos, as many as run at the cost of one, and forcing periods of each.
+const WATCHED: usize = 8;
+const WATCH: u64 = 12_000;
+
+/// How far apart they start in the first state, in the units of the model: nothing beside the chaos, and forgotten
+/// after some hundred periods of it.
+const APART: f64 = 1e-6;
 
 /// One value.
 struct Place {
@@ -99,6 +112,8 @@ struct Journey<'a> {
     /// What transients became that looked like attractors; without cycles.
     became: BTreeMap<Node, Node>,
     links: Links,
+    /// Chaos that is to be watched.
+    unwatched: Vec<Node>,
     search: &'a Search,
     control: &'a Control,
 }
@@ -130,14 +145,22 @@ impl Journey<'_> {
             let point = starts.point(&model, number % starts.count);
             Ok((model, point))
         };
-        let mut found = self.run(at.len() * starts.count, start_at)?;
+        let search = Search {
+            watch: 0,
+            ..*self.search
+        };
+        let mut found = self.run(&search, at.len() * starts.count, start_at)?;
         for _ in 1..PATIENCE {
             let points = found.iter().enumerate();
             let open: Vec<(usize, Point)> = points
                 .filter_map(|(number, found)| Some((number, found.undecided_at()?.clone())))
                 .collect();
             let go_on = |i: usize| Ok((model_of(open[i].0)?, open[i].1.clone()));
-            for (i, later) in self.run(open.len(), go_on)?.into_iter().enumerate() {
+            for (i, later) in self
+                .run(&search, open.len(), go_on)?
+                .into_iter()
+                .enumerate()
+            {
                 found[open[i].0] = later;
             }
         }
@@ -150,6 +173,7 @@ impl Journey<'_> {
     /// What starts 0 to `count` - 1 lead to, in their order.
     fn run(
         &self,
+        search: &Search,
         count: usize,
         start_at: impl Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
     ) -> Result<Vec<Found>, StudyError> {
@@ -158,7 +182,7 @@ impl Journey<'_> {
             all[number] = Some(found);
             Ok::<(), StudyError>(())
         };
-        attractors(0..count, start_at, self.search, self.control, keep)?;
+        attractors(0..count, start_at, search, self.control, keep)?;
         Ok(all.into_iter().flatten().collect())
     }
 
@@ -167,9 +191,18 @@ impl Journey<'_> {
     fn carry_all(&mut self) -> Result<usize, StudyError> {
         let known =
             |(at, place): (usize, &Place)| (0..place.tally.len()).map(move |number| (at, number));
-        let nodes = self.places.iter().enumerate().flat_map(known);
-        let mut errands: Vec<Errand> = nodes.flat_map(|node| self.depart(node)).collect();
+        let nodes: Vec<Node> = self.places.iter().enumerate().flat_map(known).collect();
+        let mut errands: Vec<Errand> = Vec::new();
+        for node in nodes {
+            errands.extend(self.depart(node));
+        }
+        let search = Search {
+            watch: 0,
+            confirm: true,
+            ..*self.search
+        };
         for _ in 0..2 * PATIENCE * self.places.len() {
+            errands.extend(self.watch()?);
             if errands.is_empty() {
                 break;
             }
@@ -180,31 +213,103 @@ impl Journey<'_> {
                 let point = there.carry(&here, &errand.point);
                 Ok((there, point))
             };
-            let found = self.run(errands.len(), start_at)?;
+            let found = self.run(&search, errands.len(), start_at)?;
             let ended = std::mem::take(&mut errands).into_iter().zip(found);
             for (errand, found) in ended {
                 errands.extend(self.arrive(errand, found));
             }
         }
-        Ok(errands.len())
+        Ok(errands.len() + self.unwatched.len())
+    }
+
+    /// Watches all chaos that was not watched yet, and gives what is to be done next.
+    fn watch(&mut self) -> Result<Vec<Errand>, StudyError> {
+        let nodes = std::mem::take(&mut self.unwatched);
+        let search = Search {
+            transient: WATCH,
+            exponent: 0,
+            confirm: true,
+            ..*self.search
+        };
+        let start_at = |i: usize| {
+            let (at, number) = nodes[i / WATCHED];
+            let mut point = self.places[at].tally.point(number).clone();
+            if let Some(x) = point.x.first_mut() {
+                *x += APART * (i % WATCHED) as f64;
+            }
+            Ok((self.places[at].model.clone()?, point))
+        };
+        let found = self.run(&search, nodes.len() * WATCHED, start_at)?;
+        let mut next = Vec::new();
+        for (node, found) in nodes.into_iter().zip(found.chunks(WATCHED)) {
+            next.extend(self.survive(node, found));
+        }
+        Ok(next)
+    }
+
+    /// Notes what became of the motions watched in the chaos at a node.
+    fn survive(&mut self, node: Node, watched: &[Found]) -> Vec<Errand> {
+        let (at, chaos) = node;
+        let is_cycle = |found: &&Found| {
+            let kind = found.attractor.as_ref().map(|motion| motion.kind);
+            matches!(kind, Ok(Kind::Periodic(_)))
+        };
+        let ended: Vec<&Found> = watched.iter().filter(is_cycle).collect();
+        let survival = Survival {
+            motions: watched.len() as u32,
+            ended: ended.len() as u32,
+            periods: watched.iter().map(|found| found.periods).sum(),
+        };
+        self.places[at].tally.watched(chaos, survival);
+        let mut next = Vec::new();
+        let mut ends: BTreeMap<usize, usize> = BTreeMap::new();
+        for found in ended {
+            let known = self.places[at].tally.len();
+            let Some(number) = self.places[at].tally.meet(found.clone()) else {
+                continue;
+            };
+            *ends.entry(number).or_default() += 1;
+            if number == known {
+                next.extend(self.depart((at, number)));
+            }
+        }
+        let most = ends
+            .iter()
+            .max_by_key(|(number, count)| (**count, usize::MAX - **number));
+        match most {
+            Some((&number, _)) => {
+                self.became.insert(node, (at, number));
+            }
+            None => next.extend(self.both_ways(&self.errand(node))),
+        }
+        next
     }
 
     /// What is to be done for a new attractor: both ways, or first to see whether it is one.
-    fn depart(&self, node: Node) -> Vec<Errand> {
+    fn depart(&mut self, node: Node) -> Vec<Errand> {
+        let tally = &self.places[node.0].tally;
+        let errand = self.errand(node);
+        match tally.kind(node.1) {
+            _ if tally.is_proved(node.1) => self.both_ways(&errand),
+            Kind::Chaotic | Kind::NotPeriodic => {
+                self.unwatched.push(node);
+                Vec::new()
+            }
+            _ => vec![errand],
+        }
+    }
+
+    /// In place, from an attractor.
+    fn errand(&self, node: Node) -> Errand {
         let (at, number) = node;
-        let tally = &self.places[at].tally;
-        let errand = Errand {
+        Errand {
             from: node,
             way: None,
-            point: tally.point(number).clone(),
+            point: self.places[at].tally.point(number).clone(),
             at,
             to: at,
             tries: 0,
-        };
-        if tally.is_sure(number) {
-            return self.both_ways(&errand);
         }
-        vec![errand]
     }
 
     fn both_ways(&self, errand: &Errand) -> Vec<Errand> {
@@ -258,10 +363,11 @@ impl Journey<'_> {
             (None, Some(node)) if self.root(node) != errand.from => {
                 self.became.insert(errand.from, node);
             }
-            (None, _) if again && !self.places[errand.at].tally.is_sure(errand.from.1) => {
-                next.push(errand);
+            (None, _) if self.places[errand.at].tally.is_proved(errand.from.1) => {
+                next.extend(self.both_ways(&errand));
             }
-            (None, _) => next.extend(self.both_ways(&errand)),
+            (None, _) if again => next.push(errand),
+            (None, _) => self.places[errand.at].tally.refute(errand.from.1),
         }
         next
     }
@@ -288,11 +394,10 @@ impl Journey<'_> {
                 census: place.model.map(|_| census),
             });
         }
-        let place = |&(at, number): &Node| (at, ranks[at][number]);
-        let links = self
-            .links
-            .iter()
-            .map(|((from, way), to)| ((place(from), *way), place(to)));
+        let place = |&(at, number): &Node| Some((at, ranks[at][number]?));
+        let link =
+            |((from, way), to): (&(Node, Way), &Node)| Some(((place(from)?, *way), place(to)?));
+        let links = self.links.iter().filter_map(link);
         Lineages::new(rows, &links.collect(), unfinished)
     }
 }

@@ -212,6 +212,7 @@ mod tests {
             v: vec![vec![0.0; heights.len()]],
             ranges: vec![([low, high], [low, high])],
             rest: 0.0,
+            multiplier: None,
             exponent: None,
             confidence: None,
         };
@@ -228,6 +229,7 @@ mod tests {
                 },
                 section: vec![heights.iter().map(|&z| [z, 0.0]).collect()],
             },
+            survival: None,
         }
     }
 

@@ -18,7 +18,7 @@ pub const ORBIT_METHOD: Method = Method::Taylor {
     order: 20,
 };
 
-/// Points per period that the largest reaction is taken from: its peak is met to 1e-6.
+/// Points per period of the way around.
 const POINTS: u32 = 2000;
 
 /// A motion that comes back nearer than this, in the units of the model, may be near a cycle.
@@ -271,13 +271,6 @@ pub fn portrait(model: &Model, orbit: &Orbit, control: &Control) -> Result<Portr
     let mean = |body: usize| {
         way.contact_ratio.iter().map(|r| r[body]).sum::<f64>() / way.contact_ratio.len() as f64
     };
-    let peak = |body: usize| {
-        way.history
-            .states
-            .iter()
-            .map(|s| s.prf[body])
-            .fold(0.0, f64::max)
-    };
     let here = |place: &Place| {
         let point = point(model, place);
         model.section(&point.modes, &point.x)
@@ -286,7 +279,7 @@ pub fn portrait(model: &Model, orbit: &Orbit, control: &Control) -> Result<Portr
         section: orbit.places.iter().map(here).collect(),
         contact_ratio: (0..bodies).map(mean).collect(),
         landing_phases: (0..bodies).map(landings).collect(),
-        peak_reaction: (0..bodies).map(peak).collect(),
+        peak_reaction: way.peak_reaction,
         switches: way.switches,
         history: way.history,
     })

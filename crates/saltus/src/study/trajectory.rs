@@ -4,8 +4,9 @@ use saltus_hybrid::{
     End, Evaluator, Leg, Point, Sample, Status, Step, Switch, SwitchKind, Task, integrate,
 };
 
+use super::peaks::Peaks;
 use super::{Control, StudyError};
-use crate::model::{Contact, EnergyBalance, Model, Observation, Section};
+use crate::model::{Contact, EnergyBalance, Model, Observation, Probe, Section};
 
 /// A change of contact, or a tangency.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +38,9 @@ pub struct Trajectory {
     pub switches: Vec<TrajectorySwitch>,
     /// Time history of the last periods asked for.
     pub history: History,
+    /// Largest plate reaction force on each body over the time history, in units of its weight; from the dense
+    /// output, so it does not depend on the points of the history. None if the run ended before it.
+    pub peak_reaction: Vec<f64>,
     /// Part of the time each body spent on the floor, period by period.
     pub contact_ratio: Vec<Vec<f64>>,
     /// Energy balance of each period, if the model keeps it.
@@ -59,9 +63,12 @@ pub fn simulate(
     control: &Control,
 ) -> Result<Trajectory, StudyError> {
     model.check_step(&control.options)?;
+    let bodies = model.setup().jumpers.len();
     let task = Recorder {
         model,
         control,
+        probe: model.probe(),
+        peaks: Peaks::new(bodies, model.system().state_len()),
         evaluator: model.evaluator(),
         leg: Some(Leg {
             system: model.system().clone(),
@@ -76,6 +83,7 @@ pub fn simulate(
             section: Vec::new(),
             switches: Vec::new(),
             history: History::default(),
+            peak_reaction: Vec::new(),
             contact_ratio: Vec::new(),
             energy: Vec::new(),
             end: End {
@@ -101,6 +109,8 @@ struct Recorder<'a> {
     model: &'a Model,
     control: &'a Control,
     evaluator: Evaluator,
+    probe: Probe,
+    peaks: Peaks,
     leg: Option<Leg>,
     /// First period of the history.
     from: u64,
@@ -196,6 +206,11 @@ impl Task for Recorder<'_> {
             self.out.history.states.push(seen);
             self.next += 1;
         }
+        let probe = &mut self.probe;
+        self.peaks.step(step, |x, out| {
+            out.copy_from_slice(probe.read(step.modes, x).reaction);
+        });
+        self.out.peak_reaction.clone_from(&self.peaks.largest);
     }
 
     fn end(&mut self, end: End) -> Option<Leg> {
