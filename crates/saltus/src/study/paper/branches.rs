@@ -419,7 +419,12 @@ impl Panel<'_> {
             let model = self.model_at(special.parameter)?;
             let heights = heights(&model, &special.orbit);
             let again = |other: &Transition| {
-                let apart = |a: &f64| heights.iter().map(|b| (a - b).abs()).fold(f64::INFINITY, f64::min);
+                let apart = |a: &f64| {
+                    heights
+                        .iter()
+                        .map(|b| (a - b).abs())
+                        .fold(f64::INFINITY, f64::min)
+                };
                 other.kind.short() == special.kind.short()
                     && other.period == special.orbit.period()
                     && (other.damping_ratio - special.parameter).abs() < TWICE[0]

@@ -270,7 +270,9 @@ fn f5(evidence: &Evidence<'_>) -> Finding {
 
 fn f6(evidence: &Evidence<'_>) -> Finding {
     let stretches = evidence.stretches(RATIOS[2]);
-    let lowest = cascade(stretches).last().map_or(f64::NAN, |last| last.from.damping_ratio);
+    let lowest = cascade(stretches)
+        .last()
+        .map_or(f64::NAN, |last| last.from.damping_ratio);
     let windows = families(stretches);
     let windows: Vec<String> = windows
         .iter()
@@ -286,7 +288,10 @@ fn f6(evidence: &Evidence<'_>) -> Finding {
         evidence.words('f'),
         evidence.case('g').map_or_else(String::new, in_pairs)
     );
-    if let Some(detail) = evidence.panel(RATIOS[2]).and_then(|panel| panel.detail.as_ref()) {
+    if let Some(detail) = evidence
+        .panel(RATIOS[2])
+        .and_then(|panel| panel.detail.as_ref())
+    {
         let torus = |kind: &SpecialKind| matches!(kind, SpecialKind::NeimarkSacker { .. });
         value += match detail.transitions.iter().any(|point| torus(&point.kind)) {
             false => "; no branch has a Neimark-Sacker point, where a torus would begin",
@@ -370,7 +375,11 @@ fn f8(evidence: &Evidence<'_>) -> Finding {
     }
     found.sort_by(|(_, a), (_, b)| (b.to - b.from).total_cmp(&(a.to - a.from)));
     let words = |(ratio, overlap): &(f64, Overlap)| {
-        let pairs: Vec<String> = overlap.periods.iter().map(|(a, b)| format!("{a}T and {b}T")).collect();
+        let pairs: Vec<String> = overlap
+            .periods
+            .iter()
+            .map(|(a, b)| format!("{a}T and {b}T"))
+            .collect();
         format!(
             "Omega = {ratio:.1}, zeta_h = {:.5}-{:.5} ({})",
             overlap.from,
@@ -384,7 +393,11 @@ fn f8(evidence: &Evidence<'_>) -> Finding {
         let _ = write!(value, "; and {} shorter stretches", found.len() - LONGEST);
     }
     for panel in evidence.panels() {
-        for found in panel.detail.iter().flat_map(|detail| &detail.attractors.loops) {
+        for found in panel
+            .detail
+            .iter()
+            .flat_map(|detail| &detail.attractors.loops)
+        {
             let end = |jump: Option<[f64; 2]>| {
                 jump.map_or_else(|| "not at all".into(), |jump| jumps(&panel.stretches, jump))
             };

@@ -60,7 +60,9 @@ impl Stretch {
 
     /// The section of the cycle, between two known ones on the straight line.
     fn section(&self, damping_ratio: f64) -> Option<Vec<[f64; 2]>> {
-        let at = self.cycles.partition_point(|(zeta, _)| *zeta < damping_ratio);
+        let at = self
+            .cycles
+            .partition_point(|(zeta, _)| *zeta < damping_ratio);
         let at = at.clamp(1, self.cycles.len().checked_sub(1)?.max(1));
         let ((from, a), (to, b)) = (self.cycles.get(at - 1)?, self.cycles.get(at)?);
         let part = match to - from {
@@ -73,7 +75,9 @@ impl Stretch {
 
     /// Whether a section lies on this cycle at a damping ratio where it is stable.
     pub(super) fn holds(&self, damping_ratio: f64, z: &[f64], v: &[f64]) -> bool {
-        let Some(places) = self.section(damping_ratio).filter(|_| self.covers(damping_ratio))
+        let Some(places) = self
+            .section(damping_ratio)
+            .filter(|_| self.covers(damping_ratio))
         else {
             return false;
         };
@@ -97,7 +101,8 @@ impl Stretch {
         let close = |a: &Bound, b: &Bound| (a.damping_ratio - b.damping_ratio).abs() < SAME;
         let middle = f64::midpoint(self.from.damping_ratio, self.to.damping_ratio);
         let on = |section: Vec<[f64; 2]>| {
-            let (z, v): (Vec<f64>, Vec<f64>) = section.iter().map(|place| (place[0], place[1])).unzip();
+            let (z, v): (Vec<f64>, Vec<f64>) =
+                section.iter().map(|place| (place[0], place[1])).unzip();
             self.holds(middle, &z, &v)
         };
         self.period == other.period
@@ -114,7 +119,7 @@ fn doubled<'a>(all: &'a [Stretch], at: &Bound, period: usize) -> Option<&'a Stre
 
 /// From the longest stretch at the highest damping downwards: each has twice the period of the one before, and begins
 /// where that one ends.
-pub fn cascade(all: &[Stretch]) -> Vec<&Stretch> {
+pub(super) fn cascade(all: &[Stretch]) -> Vec<&Stretch> {
     let highest = |a: &&Stretch, b: &&Stretch| {
         let [a, b] = [a, b].map(|one| (one.to.damping_ratio, one.width()));
         a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
@@ -130,7 +135,7 @@ pub fn cascade(all: &[Stretch]) -> Vec<&Stretch> {
 
 /// Cycles that are not born by doubling, with all that are born from them so: period, lowest and highest damping
 /// ratio of each family, by falling damping ratio.
-pub fn families(all: &[Stretch]) -> Vec<(usize, [f64; 2])> {
+pub(super) fn families(all: &[Stretch]) -> Vec<(usize, [f64; 2])> {
     let gives = |mother: &Stretch, one: &Stretch| {
         let ends = [&mother.from, &mother.to];
         ends.iter().any(|end| one.begins(end, mother.period))
@@ -145,7 +150,11 @@ pub fn families(all: &[Stretch]) -> Vec<(usize, [f64; 2])> {
                 range[1].max(one.to.damping_ratio),
             ];
             // twice the period each time, so this ends
-            open.extend([&one.from, &one.to].into_iter().filter_map(|end| doubled(all, end, one.period)));
+            open.extend(
+                [&one.from, &one.to]
+                    .into_iter()
+                    .filter_map(|end| doubled(all, end, one.period)),
+            );
         }
         (first.period, range)
     };
@@ -191,47 +200,64 @@ struct Run<'a> {
     orbits: Vec<&'a Orbit>,
 }
 
+/// Where a stable part begins or ends.
+struct Cut<'a> {
+    bound: Bound,
+    /// The orbit there, if it is one of the branch and none of its points.
+    orbit: Option<&'a Orbit>,
+    /// The first point behind it.
+    behind: usize,
+}
+
+impl<'a> Cut<'a> {
+    fn at(special: &'a Special) -> Self {
+        Self {
+            bound: bound(special),
+            orbit: Some(&special.orbit),
+            behind: special.near + 1,
+        }
+    }
+}
+
 /// The stable parts of a limb, in the order of its points.
 fn runs<'a>(limbs: &'a [Limb], limb: &'a Limb) -> Vec<Run<'a>> {
     let branch = &limb.branch;
     let points = &branch.points;
     let begins_stable = match branch.specials.first() {
         Some(special) => special.outside[0] == 0,
+        // at its birth a multiplier is 1, and which side of the circle it is on is chance
         None => points[points.len() - 1].stable,
     };
-    let start = begins_stable.then(|| (end(limbs, limb, 0), 0, None));
-    let mut open: Option<(Bound, usize, Option<&Special>)> = start;
+    let end = |side: usize| Cut {
+        bound: end(limbs, limb, side),
+        orbit: last_special(branch, side).map(|special| &special.orbit),
+        behind: side * points.len(),
+    };
+    let mut open = begins_stable.then(|| end(0));
     let mut out = Vec::new();
-    let mut close = |open: Option<(Bound, usize, Option<&'a Special>)>, to: (Bound, usize, Option<&'a Special>)| {
-        let Some((from, first, special)) = open else { return };
-        let period = points[0].orbit.period();
-        let edge = |special: Option<&'a Special>| {
-            special.map(|s| &s.orbit).filter(|orbit| orbit.period() == period)
-        };
-        let inside = points[first..to.1].iter().map(|point| &point.orbit);
-        let orbits = edge(special).into_iter().chain(inside).chain(edge(to.2));
+    let mut close = |from: Option<Cut<'a>>, to: Cut<'a>| {
+        let Some(from) = from else { return };
+        let inside = points[from.behind..to.behind]
+            .iter()
+            .map(|point| &point.orbit);
         out.push(Run {
-            ends: [from, to.0],
-            orbits: orbits.collect(),
+            orbits: from
+                .orbit
+                .into_iter()
+                .chain(inside)
+                .chain(to.orbit)
+                .collect(),
+            ends: [from.bound, to.bound],
         });
     };
     for special in &branch.specials {
-        let bound = || Bound {
-            damping_ratio: special.parameter,
-            at: Edge::Special(special.kind.clone()),
-        };
-        let behind = (special.near + 1).min(points.len());
         match special.outside.map(|outside| outside == 0) {
-            [true, false] => close(open.take(), (bound(), behind, Some(special))),
-            [false, true] => open = Some((bound(), behind, Some(special))),
+            [true, false] => close(open.take(), Cut::at(special)),
+            [false, true] => open = Some(Cut::at(special)),
             _ => {}
         }
     }
-    let last = match branch.ends[1] {
-        End::Halved => branch.specials.last(),
-        _ => None,
-    };
-    close(open, (end(limbs, limb, 1), points.len(), last));
+    close(open, end(1));
     joined(branch, out)
 }
 
@@ -248,35 +274,41 @@ fn joined<'a>(branch: &Branch, mut runs: Vec<Run<'a>>) -> Vec<Run<'a>> {
     runs
 }
 
-/// What is at an end of a limb.
+fn bound(special: &Special) -> Bound {
+    Bound {
+        damping_ratio: special.parameter,
+        at: Edge::Special(special.kind.clone()),
+    }
+}
+
+/// The special point at which a branch ends, if it does so at one.
+fn last_special(branch: &Branch, side: usize) -> Option<&Special> {
+    let special = match side {
+        0 => branch.specials.first(),
+        _ => branch.specials.last(),
+    };
+    special.filter(|_| matches!(branch.ends[side], End::Halved | End::Grazing))
+}
+
+/// What is at an end of a limb: where it meets or comes from another one, a special point of either.
 fn end(limbs: &[Limb], limb: &Limb, side: usize) -> Bound {
     let branch = &limb.branch;
-    let (point, special) = match side {
-        0 => (branch.points.first(), branch.specials.first()),
-        _ => (branch.points.last(), branch.specials.last()),
-    };
-    let origin = || {
-        let label = limb.origin.as_ref()?;
-        let mut all = limbs.iter().flat_map(|limb| &limb.branch.specials);
-        all.find(|special| special.label == *label)
-    };
+    let point = &branch.points[side * (branch.points.len() - 1)];
+    let is_origin = |special: &&Special| Some(&special.label) == limb.origin.as_ref();
+    let mut all = limbs.iter().flat_map(|limb| &limb.branch.specials);
     let at = match branch.ends[side] {
-        End::Halved | End::Grazing => special,
-        End::Start | End::Closed => origin(),
-        _ => None,
+        End::Start | End::Closed => all.find(is_origin),
+        _ => last_special(branch, side),
     };
-    let here = point.map_or(f64::NAN, |point| point.parameter);
+    let damping_ratio = point.parameter;
     match (at, &branch.ends[side]) {
-        (Some(special), _) => Bound {
-            damping_ratio: special.parameter,
-            at: Edge::Special(special.kind.clone()),
-        },
+        (Some(special), _) => bound(special),
         (None, End::RangeEnd) => Bound {
-            damping_ratio: here,
+            damping_ratio,
             at: Edge::Range,
         },
         (None, why) => Bound {
-            damping_ratio: here,
+            damping_ratio,
             at: Edge::Lost(why.to_string()),
         },
     }
