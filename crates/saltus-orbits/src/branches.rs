@@ -14,6 +14,9 @@ const SAME_STATE: f64 = 1e-4;
 /// Two tangents at a special point with a larger cosine are those of one branch: they are known to far less.
 const SAME_WAY: f64 = 1.0 - 1e-6;
 
+/// Points with unstable orbits that end a branch which is followed for its stable part.
+const BEYOND: usize = 3;
+
 /// Which branches are followed, and how.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BranchesOptions {
@@ -21,6 +24,13 @@ pub struct BranchesOptions {
     pub continuation: ContinuationOptions,
     /// Doublings of the period in a row at most; with 6 the ratio of their distances is Feigenbaum's to 1e-3.
     pub doublings: usize,
+    /// Doublings in a row whose branches are followed to their ends. Those of later ones begin at doublings of
+    /// stable orbits only and end soon after their stable part, since they grow ever longer.
+    pub entire: usize,
+    /// Longest period of a branch that begins at a period doubling.
+    pub longest: usize,
+    /// A doubling nearer than this to the one before, in the parameter, is the last of its cascade.
+    pub closest: f64,
     /// Whether branches that cross at branch points, and those of half the period where one ends, are followed too.
     pub crossings: bool,
     /// Branches at most.
@@ -32,6 +42,9 @@ impl Default for BranchesOptions {
         Self {
             continuation: ContinuationOptions::default(),
             doublings: 6,
+            entire: usize::MAX,
+            longest: usize::MAX,
+            closest: 0.0,
             crossings: true,
             branches: 24,
         }
@@ -49,8 +62,9 @@ pub struct Limb {
     pub branch: Branch,
 }
 
-/// Follows a branch from `start` both ways, then the branches of twice the period from its period doublings
-/// those that cross it and that of half its period where it ends, and so on. No branch is followed twice. Labels are unique among all branches.
+/// Follows a branch from `start` both ways, then the branches of twice the period from its period doublings, those
+/// that cross it and that of half its period where it ends, and so on. No branch is followed twice. Labels are
+/// unique among all branches.
 ///
 /// A doubled branch is followed one way: the other way the same orbits come half a period later.
 /// `keep_going` sees each point; `false` ends the work.
@@ -64,81 +78,132 @@ pub fn branches<F: Family + ?Sized>(
     options: &BranchesOptions,
     keep_going: &mut dyn FnMut(&Point) -> bool,
 ) -> Result<Vec<Limb>, ContinuationError> {
-    let path = Path::new(family, start, along, &options.continuation)?;
-    let mut labels = Labels::default();
-    let mut first = path.walk_both(path.seed(start, true)?, None, keep_going);
-    labels.name(&mut first);
-    let mut limbs = vec![Limb {
-        origin: None,
-        doublings: 0,
-        branch: first,
-    }];
-    let mut visited: Vec<Special> = Vec::new();
+    let brief = ContinuationOptions {
+        unstable: options.continuation.unstable.min(BEYOND),
+        ..options.continuation.clone()
+    };
+    let mut tree = Tree {
+        path: Path::new(family, start, along, &options.continuation)?,
+        brief: Path::new(family, start, along, &brief)?,
+        options,
+        labels: Labels::default(),
+        limbs: Vec::new(),
+        visited: Vec::new(),
+    };
+    let path = &tree.path;
+    let first = path.walk_both(path.seed(start, true)?, None, keep_going);
+    tree.add(None, 0, first);
     let mut mother = 0;
-    while let Some(limb) = limbs.get(mother) {
-        let depth = limb.doublings;
+    while let Some(limb) = tree.limbs.get(mother) {
         for special in limb.branch.specials.clone() {
-            let stopped = limbs
-                .iter()
-                .any(|l| l.branch.ends.contains(&End::Interrupted));
-            if stopped || limbs.len() >= options.branches {
-                return Ok(limbs);
+            let ends = tree.limbs.iter().flat_map(|limb| &limb.branch.ends);
+            let stopped = ends.into_iter().any(|end| *end == End::Interrupted);
+            if stopped || tree.limbs.len() >= options.branches {
+                return Ok(tree.limbs);
             }
-            let seen = |known: &Special| path.same(known, &special);
-            // A halving and the period doubling that it is on the other branch: one of them will do.
-            let twin = match special.kind {
-                SpecialKind::Halving => SpecialKind::PeriodDoubling,
-                _ => SpecialKind::Halving,
-            };
-            // A branch that crosses here may have been followed from elsewhere.
-            let crosses = |s: &&Special| {
-                let kinds = [&s.kind, &special.kind];
-                kinds.iter().all(|kind| **kind == SpecialKind::BranchPoint)
-                    && dot(&s.tangent, &special.tangent).abs() < SAME_WAY
-            };
-            let all = limbs.iter().flat_map(|limb| &limb.branch.specials);
-            let mut followed = all.filter(|s| s.kind == twin || crosses(s));
-            if visited.iter().any(seen) || followed.any(seen) {
-                continue;
-            }
-            let (branch, doublings) = match special.kind {
-                SpecialKind::PeriodDoubling if depth < options.doublings => {
-                    let birth = path.doubled(&special);
-                    (
-                        birth.map(|seed| path.walk(seed, Some(&special), keep_going)),
-                        depth + 1,
-                    )
-                }
-                SpecialKind::BranchPoint if options.crossings => {
-                    let birth = path.crossed(&special);
-                    (
-                        birth.map(|seed| path.walk_both(seed, Some(&special), keep_going)),
-                        depth,
-                    )
-                }
-                SpecialKind::Halving if options.crossings => {
-                    let mother = path.half(&special);
-                    (
-                        mother.map(|seed| path.walk_both(seed, None, keep_going)),
-                        depth.saturating_sub(1),
-                    )
-                }
-                _ => continue,
-            };
-            let origin = Some(special.label.clone());
-            visited.push(special);
-            if let Some(mut branch) = branch {
-                labels.name(&mut branch);
-                limbs.push(Limb {
-                    origin,
-                    doublings,
-                    branch,
-                });
+            if !tree.is_followed(&special) {
+                tree.follow(mother, special, keep_going);
             }
         }
         mother += 1;
     }
-    Ok(limbs)
+    Ok(tree.limbs)
+}
+
+/// Branches that grow from each other, under way.
+struct Tree<'a, F: ?Sized> {
+    path: Path<'a, F>,
+    /// For branches that end soon after their stable part.
+    brief: Path<'a, F>,
+    options: &'a BranchesOptions,
+    labels: Labels,
+    limbs: Vec<Limb>,
+    /// Special points from which a branch was begun, or could not be.
+    visited: Vec<Special>,
+}
+
+impl<F: Family + ?Sized> Tree<'_, F> {
+    fn add(&mut self, origin: Option<String>, doublings: usize, mut branch: Branch) {
+        self.labels.name(&mut branch);
+        self.limbs.push(Limb {
+            origin,
+            doublings,
+            branch,
+        });
+    }
+
+    fn specials(&self) -> impl Iterator<Item = &Special> {
+        self.limbs.iter().flat_map(|limb| &limb.branch.specials)
+    }
+
+    /// Whether the other branch through a special point is known.
+    fn is_followed(&self, special: &Special) -> bool {
+        let seen = |known: &Special| self.path.same(known, special);
+        // A halving and the period doubling that it is on the other branch: one of them will do.
+        let twin = match special.kind {
+            SpecialKind::Halving => SpecialKind::PeriodDoubling,
+            _ => SpecialKind::Halving,
+        };
+        // A branch that crosses here may have been followed from elsewhere.
+        let crosses = |s: &&Special| {
+            let kinds = [&s.kind, &special.kind];
+            kinds.iter().all(|kind| **kind == SpecialKind::BranchPoint)
+                && dot(&s.tangent, &special.tangent).abs() < SAME_WAY
+        };
+        let mut followed = self.specials().filter(|s| s.kind == twin || crosses(s));
+        self.visited.iter().any(seen) || followed.any(seen)
+    }
+
+    /// Whether a doubling of limb `mother` is to be followed.
+    fn doubles(&self, mother: &Limb, special: &Special) -> bool {
+        let before = mother.origin.as_ref();
+        let before = before.and_then(|label| self.specials().find(|s| s.label == *label));
+        let far = |s: &Special| (s.parameter - special.parameter).abs() >= self.options.closest;
+        let begins_stable = special.outside.contains(&0);
+        mother.doublings < self.options.doublings
+            && 2 * special.orbit.period() <= self.options.longest
+            && (mother.doublings < self.options.entire || begins_stable)
+            && before.is_none_or(far)
+    }
+
+    /// Follows the other branch through a special point of limb `mother`.
+    fn follow(
+        &mut self,
+        mother: usize,
+        special: Special,
+        keep_going: &mut dyn FnMut(&Point) -> bool,
+    ) {
+        let limb = &self.limbs[mother];
+        let depth = limb.doublings;
+        let crossings = self.options.crossings;
+        let (branch, doublings) = match special.kind {
+            SpecialKind::PeriodDoubling if self.doubles(limb, &special) => {
+                let path = match depth < self.options.entire {
+                    true => &self.path,
+                    false => &self.brief,
+                };
+                let birth = path.doubled(&special);
+                let branch = birth.map(|seed| path.walk(seed, Some(&special), keep_going));
+                (branch, depth + 1)
+            }
+            SpecialKind::BranchPoint if crossings => {
+                let birth = self.path.crossed(&special);
+                let walk = |seed| self.path.walk_both(seed, Some(&special), keep_going);
+                (birth.map(walk), depth)
+            }
+            SpecialKind::Halving if crossings => {
+                let mother = self.path.half(&special);
+                let branch = mother.map(|seed| self.path.walk_both(seed, None, keep_going));
+                (branch, depth.saturating_sub(1))
+            }
+            _ => return,
+        };
+        let origin = Some(special.label.clone());
+        self.visited.push(special);
+        if let Some(branch) = branch {
+            self.add(origin, doublings, branch);
+        }
+    }
 }
 
 impl<F: Family + ?Sized> Path<'_, F> {

@@ -37,6 +37,8 @@ pub struct ContinuationOptions {
     pub points: usize,
     /// How much the whole range of the parameter counts beside states: 1 where states are of the order of 1.
     pub weight: f64,
+    /// Points in a row with unstable orbits, beyond which a branch ends.
+    pub unstable: usize,
 }
 
 impl Default for ContinuationOptions {
@@ -52,6 +54,7 @@ impl Default for ContinuationOptions {
             angle: 0.3,
             points: 2000,
             weight: 1.0,
+            unstable: usize::MAX,
         }
     }
 }
@@ -103,6 +106,8 @@ pub enum End {
     RangeEnd,
     /// After as many points as allowed.
     PointLimit,
+    /// After as many points in a row with unstable orbits as allowed.
+    Unstable,
     /// Back where it began: a closed curve.
     Closed,
     /// Where it meets the branch of half its period.
@@ -129,6 +134,7 @@ impl std::fmt::Display for End {
             Self::Start => write!(f, "started here"),
             Self::RangeEnd => write!(f, "end of the range"),
             Self::PointLimit => write!(f, "as many points as allowed"),
+            Self::Unstable => write!(f, "unstable for as many points as allowed"),
             Self::Closed => write!(f, "closed curve: back at the start"),
             Self::Halved => write!(f, "meets the branch of half its period"),
             Self::Grazing => write!(f, "grazing, and no orbit found near beyond it"),

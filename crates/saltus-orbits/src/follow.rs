@@ -64,7 +64,8 @@ impl Branch {
     fn after(self, back: Branch) -> Self {
         let shift = back.points.len() - 1;
         let turned = |mut special: Special| {
-            special.near = shift - special.near;
+            // the point before it is now the one after it
+            special.near = (shift - special.near).saturating_sub(1);
             special.outside.reverse();
             special.tangent.iter_mut().for_each(|t| *t = -*t);
             special

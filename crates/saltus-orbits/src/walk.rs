@@ -58,6 +58,10 @@ impl<F: Family + ?Sized> Path<'_, F> {
             if branch.points.len() >= self.options.points.max(1) {
                 break End::PointLimit;
             }
+            let behind = branch.points.iter().rev();
+            if behind.take_while(|point| !point.stable).count() > self.options.unstable {
+                break End::Unstable;
+            }
             if self.leaves(last) {
                 break End::RangeEnd;
             }

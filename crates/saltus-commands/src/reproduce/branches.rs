@@ -1,13 +1,12 @@
 //! Why the transitions of Fig. 2 are where they are: branches, special points, exponents.
 
-use saltus::physics::{ContactLaw, FrequencyReference};
-use saltus::study::paper::{PanelBranches, PanelExponents, Transition};
+use saltus::study::paper::{Detail, Diagram, PanelBranches, PanelExponents, Transition};
 use saltus_results::{Axis, Branches, Colour, Curves, Figure, Panel, Value};
 
 use super::Results;
-use super::figures::{DAMPING, HEIGHT, find, points};
+use super::figures::{DAMPING, HEIGHT, points};
 use super::page::Album;
-use super::tables::header;
+use super::tables::{header, panels};
 use crate::failure::Failure;
 use crate::kinds;
 
@@ -29,7 +28,7 @@ pub(super) fn write(album: &mut Album<'_>, results: &Results) -> Result<(), Fail
         ("special points", "transitions.csv"),
     ];
     album.show("fig2-branches", &figure(results), caption, &data)?;
-    let rows: Vec<Vec<String>> = results.branches.iter().flat_map(rows).collect();
+    let rows: Vec<Vec<String>> = details(results).flat_map(rows).collect();
     let columns = [
         "Ω/ω_h",
         "",
@@ -43,12 +42,15 @@ pub(super) fn write(album: &mut Album<'_>, results: &Results) -> Result<(), Fail
         page.subsection("Special points that sweeps meet: on one side at least the orbit is stable")
             .table(&columns, rows)
     });
-    let others = results.branches.iter().flat_map(|panel| &panel.transitions);
+    let others = details(results).flat_map(|(_, detail)| &detail.transitions);
     let others = others.filter(|transition| !transition.seen).count();
-    album.say(&[&format!(
-        "T: take-off, L: landing; a bar separates forcing periods. {others} more special points lie on parts that are \
-         unstable on both sides; they are in transitions.csv."
-    )]);
+    album.say(&[
+        &format!(
+            "T: take-off, L: landing; a bar separates forcing periods. {others} more special points lie on parts \
+             that are unstable on both sides; they are in transitions.csv."
+        ),
+        &agreement(results),
+    ]);
     let caption = "Largest Lyapunov exponent of the motions of the rising sweeps, with its standard error: positive in \
                    chaos, zero at each bifurcation of a cycle, negative on stable cycles.";
     album.show(
@@ -59,8 +61,35 @@ pub(super) fn write(album: &mut Album<'_>, results: &Results) -> Result<(), Fail
     )
 }
 
-fn rows(panel: &PanelBranches) -> Vec<Vec<String>> {
-    let seen = panel
+/// What is known of the paper's own panels.
+fn details(results: &Results) -> impl Iterator<Item = (&PanelBranches, &Detail)> {
+    let panels = results.branches.iter();
+    panels.filter_map(|panel| Some((panel, panel.detail.as_ref()?)))
+}
+
+/// How far the two methods are apart, measured on the table itself.
+fn agreement(results: &Results) -> String {
+    let all = details(results).flat_map(|(panel, detail)| {
+        let points = detail.transitions.iter();
+        points.filter_map(|point| {
+            let apart = (point.second? - point.damping_ratio).abs();
+            Some((apart, panel.ratio, &point.label))
+        })
+    });
+    let points: Vec<_> = all.collect();
+    let largest = points.iter().max_by(|a, b| a.0.total_cmp(&b.0));
+    let Some((apart, ratio, label)) = largest else {
+        return String::new();
+    };
+    format!(
+        "The two methods are at most {apart:.1e} apart in ζ_h, at {label} of Ω = {ratio:.1} ω_h; that is the largest of \
+         {} differences in transitions.csv.",
+        points.len()
+    )
+}
+
+fn rows((panel, detail): (&PanelBranches, &Detail)) -> Vec<Vec<String>> {
+    let seen = detail
         .transitions
         .iter()
         .filter(|transition| transition.seen);
@@ -82,26 +111,23 @@ fn rows(panel: &PanelBranches) -> Vec<Vec<String>> {
 }
 
 fn figure(results: &Results) -> Figure {
-    let panels = results
-        .branches
-        .iter()
-        .map(|panel| Panel::from(diagram(results, panel)));
-    Figure::grid(1, panels)
+    let all = panels(results).filter_map(|(cloud, panel)| {
+        let detail = panel.detail.as_ref()?;
+        Some(Panel::from(diagram(cloud, detail)))
+    });
+    Figure::grid(1, all)
         .title("Periodic orbits behind Fig. 2")
         .plot_size(900.0, 330.0)
 }
 
-fn diagram(results: &Results, panel: &PanelBranches) -> Branches {
-    let (law, reference) = (ContactLaw::ReactionForce, FrequencyReference::Occupied);
-    let title = format!("Ω = {:.1} ω_h", panel.ratio);
+fn diagram(cloud: &Diagram, panel: &Detail) -> Branches {
+    let title = format!("Ω = {:.1} ω_h", cloud.ratio);
+    let (mut x, mut y) = points(cloud, 0);
+    let (more_x, more_y) = points(cloud, 1);
+    x.extend(more_x);
+    y.extend(more_y);
     let mut diagram = Branches::new(title, Axis::new(DAMPING), Axis::new(HEIGHT));
-    if let Some(cloud) = find(results, law, reference, panel.ratio) {
-        let (mut x, mut y) = points(cloud, 0);
-        let (more_x, more_y) = points(cloud, 1);
-        x.extend(more_x);
-        y.extend(more_y);
-        diagram = diagram.cloud("Sweeps both ways", x, y);
-    }
+    diagram = diagram.cloud("Sweeps both ways", x, y);
     for limb in &panel.limbs {
         let label = format!("Period {}", limb.period);
         let (x, curves) = (limb.damping_ratio.clone(), limb.heights.clone());
@@ -149,8 +175,8 @@ fn exponents(results: &Results) -> Figure {
 }
 
 fn transitions_csv(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
-    let rows = results.branches.iter().flat_map(|panel| {
-        panel.transitions.iter().map(|transition| {
+    let rows = details(results).flat_map(|(panel, detail)| {
+        detail.transitions.iter().map(|transition| {
             vec![
                 Value::from(panel.ratio),
                 transition.label.clone().into(),
@@ -187,8 +213,8 @@ fn transitions_csv(album: &mut Album<'_>, results: &Results) -> Result<(), Failu
 }
 
 fn branches_csv(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
-    let rows = results.branches.iter().flat_map(|panel| {
-        panel
+    let rows = details(results).flat_map(|(panel, detail)| {
+        detail
             .limbs
             .iter()
             .enumerate()

@@ -26,7 +26,7 @@ pub(super) fn fig2(results: &Results, reference: FrequencyReference) -> Figure {
         .plot_size(900.0, 300.0)
 }
 
-pub(super) fn find(
+fn find(
     results: &Results,
     law: ContactLaw,
     reference: FrequencyReference,

@@ -25,6 +25,7 @@ use report::Report;
 
 /// Everything computed.
 struct Results {
+    quick: bool,
     effort: Effort,
     diagrams: Vec<Diagram>,
     branches: Vec<PanelBranches>,
@@ -90,15 +91,16 @@ fn compute(quick: bool, context: &Context) -> Result<Results, Failure> {
     let exponents = step.run("Exponents", effort.panel_periods(), || {
         paper::panel_exponents(&diagrams, &effort, &fast)
     })?;
-    let branches = step.run("Branches", 0, || paper::panel_branches(&effort, &control))?;
-    let facts = step.run("Facts", 0, || {
-        paper::facts(&diagrams, &cases, &free, &branches, &fast)
+    let branches = step.run("Branches", 0, || {
+        paper::panel_branches(&diagrams, &effort, &control)
     })?;
+    let facts = step.run("Facts", 0, || paper::facts(&cases, &free, &branches))?;
     let misprints = step.run("Misprints", 0, || paper::misprints(&control))?;
     let inertia = step.run("Full model", effort.inertia_periods(), || {
         paper::compare_inertia(&effort, &control)
     })?;
     Ok(Results {
+        quick,
         effort,
         diagrams,
         branches,

@@ -4,7 +4,7 @@ use saltus::physics::FrequencyReference::{Free, Occupied};
 use saltus::study::paper::Verdict;
 use saltus_results::{Fact, Figure, FigureBlock, Image, Page, Verdict as Badge};
 
-use super::report::{RegimeRow, Report};
+use super::report::{QUICK, RegimeRow, Report};
 use super::{Results, branches, dataset, figures, tables};
 use crate::failure::Failure;
 use crate::store::Store;
@@ -27,6 +27,9 @@ pub(super) fn write(
          run? This page repeats every figure and statement of Dias & Del Prado, Human-Structure \
          Interaction during jumping on Rectangular Plates, with our numbers beside their words.",
     ]);
+    if results.quick {
+        album.say(&[QUICK]);
+    }
     statements(&mut album, results, report);
     fig2(&mut album, results)?;
     branches::write(&mut album, results)?;
@@ -123,7 +126,7 @@ fn fig2(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
         ("b", "fig2b.csv"),
         ("c", "fig2c.csv"),
         ("NetCDF", "fig2.nc"),
-        ("regimes", "regimes.csv"),
+        ("what each motion came to", "sweeps.csv"),
     ];
     album.show("fig2", &figures::fig2(results, Occupied), &caption, &data)
 }
@@ -220,11 +223,9 @@ fn beyond(album: &mut Album<'_>, results: &Results, report: &Report) -> Result<(
     )?;
     let rows: Vec<Vec<String>> = law_rows(&report.regimes);
     album.with(|page| {
-        page.subsection("Main thresholds of the up-sweeps under each law")
-            .table(
-                &["Ω/ω_h", "Law", "Longest stretches of one period (ζ_h)"],
-                rows,
-            )
+        page.subsection("Stable cycles under each law, where they are stable over 0.02 or more")
+            .table(&["Ω/ω_h", "Law", "Stable cycles (ζ_h)"], rows)
+            .files([("all of them", "regimes.csv")])
     });
     let i = &report.full_against_condensed;
     let caption = format!(
@@ -243,26 +244,22 @@ fn beyond(album: &mut Album<'_>, results: &Results, report: &Report) -> Result<(
     )
 }
 
-/// For each law the stretches of one period that span at least 0.02 in the up-sweep.
+/// For each law the cycles that are stable over at least 0.02, by falling damping.
 fn law_rows(regimes: &[RegimeRow]) -> Vec<Vec<String>> {
     let mut out: Vec<Vec<String>> = Vec::new();
-    for regime in regimes
-        .iter()
-        .filter(|r| r.sweep == "up" && r.reference == "occupied")
-    {
-        let Some(n) = regime.period.filter(|_| regime.to - regime.from >= 0.02) else {
-            continue;
-        };
-        let stretch = format!("{n}T {:.3}-{:.3}", regime.from, regime.to);
+    let wide = |r: &&RegimeRow| r.reference == "occupied" && r.to - r.from >= 0.02;
+    for regime in regimes.iter().filter(wide) {
+        let stretch = format!("{}T {:.5}-{:.5}", regime.period, regime.from, regime.to);
         let ratio = format!("{:.1}", regime.frequency_ratio);
         match out
-            .last_mut()
-            .filter(|row| row[0] == ratio && row[1] == regime.law)
+            .iter_mut()
+            .find(|row| row[0] == ratio && row[1] == regime.law)
         {
             Some(row) => row[2] += &format!(", {stretch}"),
             None => out.push(vec![ratio, regime.law.into(), stretch]),
         }
     }
+    out.sort_by(|a, b| a[0].cmp(&b[0]));
     out
 }
 

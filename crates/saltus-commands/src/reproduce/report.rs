@@ -1,10 +1,11 @@
 //! The findings as text, Markdown and JSON. No times and no machine: equal input gives equal bits.
 
-use saltus::study::paper::{RATIOS, regimes};
+use saltus::study::paper::{Bound, Edge};
 use saltus_results::{MarkdownTable, Value};
 use serde::Serialize;
 
 use super::Results;
+use crate::kinds;
 
 /// `facts.json`.
 #[derive(Serialize)]
@@ -12,6 +13,8 @@ pub(super) struct Report {
     program: &'static str,
     version: &'static str,
     paper: &'static str,
+    /// Whether it is a quick look: fewer values and periods, so that it may miss what is narrow.
+    pub(super) quick: bool,
     pub(super) facts: Vec<FactRow>,
     pub(super) misprints: Vec<MisprintRow>,
     pub(super) full_against_condensed: Inertia,
@@ -70,13 +73,17 @@ pub(super) struct RegimeRow {
     pub(super) reference: &'static str,
     pub(super) frequency_ratio: f64,
     pub(super) base_hz: f64,
-    /// "up" or "down".
-    pub(super) sweep: &'static str,
-    /// `null`: the samples do not repeat.
-    pub(super) period: Option<u32>,
+    pub(super) period: usize,
     pub(super) from: f64,
+    /// What happens at that end.
+    pub(super) from_is: String,
     pub(super) to: f64,
+    pub(super) to_is: String,
 }
+
+/// What `--quick` says of itself.
+pub(super) const QUICK: &str = "A quick look (--quick): coarse grids, short runs, doublings up to 16T. It may miss \
+                                what is narrower than its step; without --quick everything is finer.";
 
 /// Symbols for the names that plain text gives them.
 pub(super) fn symbols(text: &str) -> String {
@@ -103,6 +110,7 @@ impl Report {
             program: "saltus",
             version: env!("CARGO_PKG_VERSION"),
             paper: "Dias & Del Prado, Human-Structure Interaction during jumping on Rectangular Plates",
+            quick: results.quick,
             facts: results
                 .facts
                 .iter()
@@ -143,6 +151,9 @@ impl Report {
     /// The table of facts for a terminal.
     pub(super) fn text(&self) -> String {
         let mut out = String::from("Dias & Del Prado, statement by statement\n\n");
+        if self.quick {
+            out += &format!("{QUICK}\n\n");
+        }
         for fact in &self.facts {
             out += &format!("{}  {}\n", fact.id, fact.claim);
             out += &format!(
@@ -171,8 +182,13 @@ impl Report {
                 [&m.place, &m.printed, &m.used, &m.effect].map(|text| Value::from(text.as_str())),
             );
         }
+        let quick = if self.quick {
+            format!("{QUICK}\n\n")
+        } else {
+            String::new()
+        };
         format!(
-            "# {}\n\n## Facts\n\n{facts}\n## Misprints and gaps\n\n{misprints}",
+            "# {}\n\n{quick}## Facts\n\n{facts}\n## Misprints and gaps\n\n{misprints}",
             self.paper
         )
     }
@@ -199,22 +215,24 @@ impl CaseRow {
 }
 
 fn regime_rows(results: &Results) -> Vec<RegimeRow> {
-    let mut out = Vec::new();
-    for ratio in RATIOS {
-        for diagram in results.diagrams.iter().filter(|d| d.ratio == ratio) {
-            for (pass, sweep) in [(0, "up"), (1, "down")] {
-                out.extend(regimes(diagram, pass).into_iter().map(|regime| RegimeRow {
-                    law: diagram.law.name(),
-                    reference: diagram.reference.name(),
-                    frequency_ratio: ratio,
-                    base_hz: diagram.hertz,
-                    sweep,
-                    period: regime.period,
-                    from: regime.from,
-                    to: regime.to,
-                }));
-            }
-        }
-    }
-    out
+    let is = |bound: &Bound| match &bound.at {
+        Edge::Range => "end of the range".to_owned(),
+        Edge::Special(kind) => kinds::name(kind).to_owned(),
+        Edge::Lost(why) => why.clone(),
+    };
+    let panels = results.diagrams.iter().zip(&results.branches);
+    let rows = panels.flat_map(|(diagram, panel)| {
+        panel.stretches.iter().map(|one| RegimeRow {
+            law: panel.law.name(),
+            reference: panel.reference.name(),
+            frequency_ratio: panel.ratio,
+            base_hz: diagram.hertz,
+            period: one.period,
+            from: one.from.damping_ratio,
+            from_is: is(&one.from),
+            to: one.to.damping_ratio,
+            to_is: is(&one.to),
+        })
+    });
+    rows.collect()
 }

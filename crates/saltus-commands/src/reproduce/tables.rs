@@ -1,7 +1,7 @@
 //! The numbers behind the figures as CSV.
 
-use saltus::physics::{ContactLaw, FrequencyReference};
 use saltus::study::Pass;
+use saltus::study::paper::{Diagram, Met, PanelBranches};
 use saltus_results::Value;
 
 use super::Results;
@@ -20,12 +20,13 @@ pub(super) fn write(
     report: &Report,
 ) -> Result<(), Failure> {
     regimes(folder, report)?;
+    sweeps(folder, results)?;
     fig2(folder, results)?;
     fig3(folder, results)?;
     inertia(folder, results)
 }
 
-/// Stretches of equal period along the sweeps of every diagram.
+/// Where which cycle is stable, under every law and both readings.
 fn regimes(folder: &mut dyn Store, report: &Report) -> Result<(), Failure> {
     let rows = report.regimes.iter().map(|r| {
         vec![
@@ -33,48 +34,89 @@ fn regimes(folder: &mut dyn Store, report: &Report) -> Result<(), Failure> {
             r.reference.into(),
             r.frequency_ratio.into(),
             r.base_hz.into(),
-            r.sweep.into(),
-            r.period.into(),
+            Value::from(r.period as u32),
             r.from.into(),
+            r.from_is.clone().into(),
             r.to.into(),
+            r.to_is.clone().into(),
         ]
     });
     folder.table(
         "regimes.csv",
         &[(
-            "period",
-            "forcing periods after which the kept samples repeat to 1e-3 eta; empty: they do not",
+            "from, to",
+            "damping ratios between which the cycle of that period is stable: all its multipliers lie inside the \
+             unit circle",
         )],
         &header(&[
             "law",
             "reference",
             "frequency_ratio",
             "base_hz",
-            "sweep",
             "period",
             "from",
+            "from_is",
             "to",
+            "to_is",
         ]),
         rows,
     )
 }
 
+/// What the motions of Fig. 2 have come to, held against the stable cycles.
+fn sweeps(folder: &mut dyn Store, results: &Results) -> Result<(), Failure> {
+    let rows = panels(results).flat_map(|(diagram, panel)| {
+        diagram.rows.iter().map(|row| {
+            let (cycle, repeats) = match Diagram::met(row, &panel.stretches) {
+                Met::Cycle(period) => (Some(period as u32), None),
+                Met::Slow(period) => (None, Some(period as u32)),
+                Met::Other => (None, None),
+            };
+            vec![
+                diagram.ratio.into(),
+                pass_name(&diagram.passes[row.pass]).into(),
+                row.value.into(),
+                cycle.into(),
+                repeats.into(),
+            ]
+        })
+    });
+    folder.table(
+        "sweeps.csv",
+        &[
+            (
+                "cycle",
+                "period of the stable cycle that the motion is on, to 0.05 eta; empty: on none",
+            ),
+            (
+                "slow",
+                "periods after which a motion on no stable cycle repeats to 1e-3 eta: one that is still on its way",
+            ),
+        ],
+        &header(&["frequency_ratio", "pass", "damping_ratio", "cycle", "slow"]),
+        rows,
+    )
+}
+
+/// The diagrams of the paper's law under the occupied reading, with what is behind them.
+pub(super) fn panels(results: &Results) -> impl Iterator<Item = (&Diagram, &PanelBranches)> {
+    let all = results.diagrams.iter().zip(&results.branches);
+    all.filter(|(_, panel)| panel.detail.is_some())
+}
+
+fn pass_name(pass: &Pass) -> String {
+    match pass {
+        Pass::Up => "up".to_owned(),
+        Pass::Down => "down".to_owned(),
+        Pass::Start { z, v } => format!("start {z} {v}"),
+    }
+}
+
 /// The samples of Fig. 2 in the paper's law and the occupied reading.
 fn fig2(folder: &mut dyn Store, results: &Results) -> Result<(), Failure> {
-    let shown = |d: &&saltus::study::paper::Diagram| {
-        d.law == ContactLaw::ReactionForce && d.reference == FrequencyReference::Occupied
-    };
-    for (tag, diagram) in ["a", "b", "c"]
-        .into_iter()
-        .zip(results.diagrams.iter().filter(shown))
-    {
-        let name = |pass: &Pass| match pass {
-            Pass::Up => "up".to_owned(),
-            Pass::Down => "down".to_owned(),
-            Pass::Start { z, v } => format!("start {z} {v}"),
-        };
+    for (tag, (diagram, _)) in ["a", "b", "c"].into_iter().zip(panels(results)) {
         let rows = diagram.rows.iter().flat_map(|row| {
-            let pass = name(&diagram.passes[row.pass]);
+            let pass = pass_name(&diagram.passes[row.pass]);
             let z = row.z.first().map_or(&[][..], Vec::as_slice);
             z.iter()
                 .map(move |&z| vec![pass.clone().into(), row.value.into(), z.into()])

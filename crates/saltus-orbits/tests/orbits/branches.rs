@@ -268,6 +268,64 @@ fn a_cascade_is_followed_by_itself_and_its_ratios_approach_feigenbaums() {
 }
 
 #[test]
+fn a_cascade_for_its_stable_parts_has_the_same_doublings_and_stops_where_it_is_told() {
+    let map = logistic();
+    let start = orbit(&map, &[2.5], &[&[0.6]]);
+    let of = |options: &BranchesOptions| {
+        let all = branches(&map, &start, &along(0, 2.0, 3.6), options, &mut |_| true).unwrap();
+        let doubling = |limb: &Limb| {
+            let mut all = limb.branch.specials.iter();
+            Some(
+                all.find(|s| s.kind == SpecialKind::PeriodDoubling)?
+                    .parameter,
+            )
+        };
+        let doublings: Vec<f64> = all.iter().filter_map(doubling).collect();
+        (all, doublings)
+    };
+    let whole = BranchesOptions {
+        crossings: false,
+        ..BranchesOptions::default()
+    };
+    let brief = BranchesOptions {
+        entire: 1,
+        longest: 16,
+        ..whole.clone()
+    };
+    let ((_, known), (limbs, doublings)) = (of(&whole), of(&brief));
+    assert_eq!(doublings.len(), 5, "1T to 16T");
+    for (a, b) in known.iter().zip(&doublings) {
+        assert!((a - b).abs() < 1e-9, "{a} {b}");
+    }
+    assert_eq!(limbs[1].branch.ends[1], End::RangeEnd);
+    assert_eq!(limbs[2].branch.ends[1], End::Unstable);
+    // the third distance is 0.0193 (3.5441 to 3.5644 less): 8T is the last
+    let near = BranchesOptions {
+        closest: 0.03,
+        ..brief
+    };
+    assert_eq!(of(&near).0.len(), 4);
+}
+
+#[test]
+fn a_special_point_lies_behind_the_point_it_is_near() {
+    let map = henon();
+    let start = orbit(&map, &[0.0, 0.3], &[&[0.0, 0.0]]);
+    let branch = both(&map, &start, &along(0, -0.2, 0.5));
+    let points = &branch.points;
+    assert_eq!(branch.specials.len(), 2);
+    for special in &branch.specials {
+        let [before, behind] = [0, 1].map(|i| points[special.near + i].orbit.places[0].x[0]);
+        let here = special.orbit.places[0].x[0];
+        assert!(
+            (here - before) * (here - behind) <= 0.0,
+            "{}",
+            special.label
+        );
+    }
+}
+
+#[test]
 fn the_other_branch_of_a_pitchfork_is_followed_both_ways_and_once() {
     let map = pitchfork();
     let start = orbit(&map, &[-0.5], &[&[0.0]]);

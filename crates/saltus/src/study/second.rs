@@ -19,10 +19,10 @@ const STEP: f64 = 1e-5;
 const ASIDE: [f64; 2] = [1e-6, 1e-8];
 const ASTRAY: f64 = 30.0;
 
-/// Distances from a fold at which orbits are taken, as parts of the range; a hundredth of them where the
-/// multiplier is far from 1 there.
-const NEAR_FOLD: [f64; 3] = [1e-6, 4e-6, 9e-6];
-const NEARER: [f64; 3] = [1.0, 1e-2, 1e-4];
+/// Distances from a fold at which orbits are taken, as parts of the range: near, since what the parabola leaves
+/// out falls with them, and nearer or further where no orbits are found so.
+const NEAR_FOLD: [f64; 3] = [1e-8, 4e-8, 9e-8];
+const NEARER: [f64; 3] = [1.0, 1e-2, 1e2];
 
 /// Half the first bracket around a grazing, as a part of the range, and when it is narrow enough.
 const BRACKET: f64 = 1e-5;

@@ -1,20 +1,20 @@
 //! Why is each transition of Fig. 2 where it is? The branches of periodic orbits behind the clouds.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use saltus_hybrid as hybrid;
+use saltus_hybrid::{Leg, Point as State, record};
 use saltus_orbits::{
     Along, BranchesOptions, ContinuationOptions, Family, Limb, NewtonOptions, Orbit, Place, Point,
-    Special, SpecialKind, branches, find_orbit,
+    SpecialKind, branches, find_orbit,
 };
 
-use super::{Effort, RATIOS, setup};
+use super::stretches::collect;
+use super::{Diagram, Effort, Met, REPEATS, Stretch, setup};
 use crate::model::{Inertia, Model, ModelError, PreparedPlate};
 use crate::physics::{ContactLaw, FrequencyReference, Plate};
 use crate::study::{
     Control, Kind, Lineages, OrbitError, OrbitSearch, Search, Starts, StudyError, Sweep, follow,
-    orbit_of, place, second_opinion, sequence, stroboscopic,
+    orbit_of, place, recurrence, second_opinion, sequence, settle, stroboscopic,
 };
 
 /// The scanned range of zeta_h.
@@ -27,8 +27,21 @@ const ALONG: Along = Along {
 /// Where the main branch of each panel is met: its long-term motion at high damping.
 const START: f64 = 0.45;
 
-/// Longest period of an attractor whose branch is followed from it.
-const LONGEST: u32 = 8;
+/// Longest period of a cycle, met by a motion, whose branch is followed over the whole range; longer ones are
+/// followed as far as they are stable.
+const LONGEST: usize = 8;
+
+/// Points with unstable orbits that end a branch which is followed for its stable part.
+const BEYOND: usize = 3;
+
+/// Doublings in a row: more than the longest period allows.
+const DOUBLINGS: usize = 16;
+
+/// Distance of two doublings at which a cascade is followed no further.
+const CLOSEST: f64 = 1e-6;
+
+/// Longest period looked for in a motion that does not seem to repeat.
+const RECORD: u64 = 128;
 
 /// A largest multiplier nearer to 1 than this is on the unit circle.
 const EDGE: f64 = 1e-6;
@@ -36,17 +49,32 @@ const EDGE: f64 = 1e-6;
 /// Two orbits are one if their places differ by less.
 const SAME: f64 = 1e-6;
 
-/// What is behind one panel of Fig. 2.
+/// Two special points of one kind and period are one, seen from two branches, if they differ by less in zeta_h and in
+/// z/eta.
+const TWICE: [f64; 2] = [1e-8, 1e-3];
+
+/// What is behind one panel of Fig. 2, under one contact law and one reading of omega_h.
 #[derive(Clone, Debug)]
 pub struct PanelBranches {
+    /// The contact law.
+    pub law: ContactLaw,
+    /// What omega_h means.
+    pub reference: FrequencyReference,
     /// Omega/omega_h.
     pub ratio: f64,
-    /// The branches with what happens on them.
+    /// Where which cycle is stable, by falling damping ratio of the upper end.
+    pub stretches: Vec<Stretch>,
+    /// More of the paper's own law and the occupied reading.
+    pub detail: Option<Detail>,
+}
+
+/// What is behind one of the paper's panels beside the stable cycles.
+#[derive(Clone, Debug)]
+pub struct Detail {
+    /// The branches, unstable parts too.
     pub limbs: Vec<Drawn>,
     /// All their special points, by falling damping ratio.
     pub transitions: Vec<Transition>,
-    /// Period doublings of the main cascade, by falling damping ratio, each with the period it doubles.
-    pub cascade: Vec<(usize, f64)>,
     /// All attractors, matched along the damping ratio.
     pub attractors: Lineages,
 }
@@ -89,94 +117,246 @@ pub struct Transition {
     pub heights: Vec<f64>,
 }
 
-/// The branches of all panels under the paper's law and the occupied reading.
+/// The branches of the panels of `diagrams`, all with their stable cycles. The motions of the sweeps are held against
+/// those; one that is on none of them leads to the next branch.
 ///
 /// # Errors
 /// [`StudyError`] if there is no model of the paper's plate, or when stopped.
 pub fn panel_branches(
+    diagrams: &[Diagram],
     effort: &Effort,
     control: &Control,
 ) -> Result<Vec<PanelBranches>, StudyError> {
     let plate = PreparedPlate::new(&Plate::dias_del_prado())?;
-    RATIOS
+    let panel = |diagram| Panel {
+        plate: &plate,
+        diagram,
+        effort,
+        control,
+    };
+    diagrams
         .iter()
-        .map(|&ratio| Panel::new(&plate, ratio, effort, control).branches())
+        .map(|diagram| panel(diagram).branches())
         .collect()
-}
-
-impl PanelBranches {
-    /// By how much the distances of successive doublings fall: Feigenbaum's number in the limit.
-    pub fn cascade_ratios(&self) -> Vec<f64> {
-        let triples = self.cascade.windows(3);
-        triples
-            .map(|w| (w[0].1 - w[1].1) / (w[1].1 - w[2].1))
-            .collect()
-    }
 }
 
 /// One panel under way.
 struct Panel<'a> {
     plate: &'a Arc<PreparedPlate>,
-    ratio: f64,
+    diagram: &'a Diagram,
     effort: &'a Effort,
     control: &'a Control,
 }
 
-impl<'a> Panel<'a> {
-    fn new(
-        plate: &'a Arc<PreparedPlate>,
-        ratio: f64,
-        effort: &'a Effort,
-        control: &'a Control,
-    ) -> Self {
-        Self {
-            plate,
+/// What is known of a panel.
+#[derive(Default)]
+struct Known {
+    limbs: Vec<Limb>,
+    stretches: Vec<Stretch>,
+}
+
+/// A motion that may be on a cycle.
+struct Seed {
+    zeta: f64,
+    period: usize,
+    state: State,
+    /// Its section: z/eta and z'/(eta omega_h).
+    z: Vec<f64>,
+    v: Vec<f64>,
+}
+
+impl Panel<'_> {
+    fn model_at(&self, zeta: f64) -> Result<Model, ModelError> {
+        let Diagram {
+            law,
+            reference,
             ratio,
-            effort,
-            control,
-        }
+            ..
+        } = *self.diagram;
+        setup(zeta, ratio, reference, law, Inertia::Condensed).model_on(self.plate)
     }
 
-    fn model_at(&self, zeta: f64) -> Result<Model, ModelError> {
-        let law = ContactLaw::ReactionForce;
-        let reference = FrequencyReference::Occupied;
-        setup(zeta, self.ratio, reference, law, Inertia::Condensed).model_on(self.plate)
+    /// Whether it is one of the paper's own, which are looked at more closely.
+    fn is_papers(&self) -> bool {
+        self.diagram.law == ContactLaw::ReactionForce
+            && self.diagram.reference == FrequencyReference::Occupied
     }
 
     fn branches(&self) -> Result<PanelBranches, StudyError> {
         let like = self.model_at(START)?;
         let family = stroboscopic(&like, |p: &[f64]| self.model_at(p[0]), self.control);
-        let attractors = self.attractors()?;
-        let mut limbs: Vec<Limb> = Vec::new();
+        let mut known = Known::default();
         let search = OrbitSearch {
             transient: 400,
             ..OrbitSearch::default()
         };
         let start = like.start(3.0, 2.0);
-        let found = orbit_of(&family, &like, &[START], &start, &search, self.control);
-        let main = self.or_stop(found)?;
-        for orbit in main.into_iter().chain(self.others(&family, &attractors)?) {
-            if !self.is_known(&family, &limbs, &orbit) {
-                // Islands are small, and their cascades too.
-                let doublings = match limbs.is_empty() {
-                    true => self.effort.doublings,
-                    false => self.effort.doublings.min(1),
-                };
-                let more = self.follow(&family, &orbit, doublings)?;
-                limbs.extend(renumbered(more, &limbs));
+        let main = orbit_of(&family, &like, &[START], &start, &search, self.control);
+        if let Some(orbit) = self.or_stop(main)? {
+            self.grow(&family, &orbit, &mut known)?;
+        }
+        self.explain(&family, self.repeating(), &mut known)?;
+        let mut detail = None;
+        if self.is_papers() {
+            self.explain(&family, self.patient(&known.stretches)?, &mut known)?;
+            let attractors = self.attractors()?;
+            self.explain(&family, of_census(&attractors), &mut known)?;
+            let drawn = known.limbs.iter().map(|limb| self.drawn(limb));
+            detail = Some(Detail {
+                limbs: drawn.collect::<Result<_, _>>()?,
+                transitions: self.transitions(&family, &known.limbs)?,
+                attractors,
+            });
+        }
+        let top = |stretch: &Stretch| stretch.to.damping_ratio;
+        known.stretches.sort_by(|a, b| top(b).total_cmp(&top(a)));
+        Ok(PanelBranches {
+            law: self.diagram.law,
+            reference: self.diagram.reference,
+            ratio: self.diagram.ratio,
+            stretches: known.stretches,
+            detail,
+        })
+    }
+
+    /// Motions of the sweeps that repeat, short periods first: their cycles give birth to the others.
+    fn repeating(&self) -> Vec<Seed> {
+        let rows = self.diagram.rows.iter();
+        let seeds = rows.filter_map(|row| match Diagram::met(row, &[]) {
+            Met::Slow(period) => Some(Seed {
+                zeta: row.value,
+                period,
+                state: row.end.clone()?,
+                z: row.z.first()?.clone(),
+                v: row.v.first()?.clone(),
+            }),
+            _ => None,
+        });
+        let mut seeds: Vec<Seed> = seeds.collect();
+        seeds.sort_by_key(|seed| seed.period);
+        seeds
+    }
+
+    /// Motions of the rising and the falling sweep that do not repeat, but do after many more periods: chaos that
+    /// was a transient hides narrow windows.
+    fn patient(&self, stretches: &[Stretch]) -> Result<Vec<Seed>, StudyError> {
+        let rows = self.diagram.rows.iter().filter(|row| row.pass < 2);
+        let other = rows.filter(|row| Diagram::met(row, stretches) == Met::Other);
+        let ended = other.filter_map(|row| Some((row.value, row.end.clone()?)));
+        let (zetas, ends): (Vec<f64>, Vec<State>) = ended.unzip();
+        let starts = zetas.iter().zip(ends);
+        let starts = starts.map(|(&zeta, end)| Ok((self.model_at(zeta)?, end)));
+        let starts: Vec<_> = starts.collect::<Result<_, ModelError>>()?;
+        let settled = settle(&starts, self.effort.patience, RECORD, self.control)?;
+        let seeds = zetas.into_iter().zip(settled).filter_map(|(zeta, motion)| {
+            let period = recurrence(&motion.z, &motion.v, REPEATS)? as usize;
+            Some(Seed {
+                zeta,
+                period,
+                state: motion.end,
+                z: motion.z,
+                v: motion.v,
+            })
+        });
+        let mut seeds: Vec<Seed> = seeds.collect();
+        seeds.sort_by_key(|seed| seed.period);
+        Ok(seeds)
+    }
+
+    /// Follows the cycles of motions that are on none of the known ones.
+    fn explain<F: Family>(
+        &self,
+        family: &F,
+        seeds: Vec<Seed>,
+        known: &mut Known,
+    ) -> Result<(), StudyError> {
+        let mut failed: Option<(usize, f64)> = None;
+        for seed in seeds {
+            self.stopped()?;
+            let on = |one: &Stretch| one.holds(seed.zeta, &seed.z, &seed.v);
+            // Slow motions beside a bifurcation come in rows, and the first says what there is to say.
+            let beside = |(period, zeta): (usize, f64)| {
+                period == seed.period && (zeta - seed.zeta).abs() <= 1.5 * self.step()
+            };
+            if known.stretches.iter().any(on) || failed.is_some_and(beside) {
+                continue;
+            }
+            match self.cycle(family, &seed)? {
+                Some(orbit) if !self.is_known(family, &known.limbs, &orbit) => {
+                    self.grow(family, &orbit, known)?;
+                }
+                _ => failed = Some((seed.period, seed.zeta)),
             }
         }
-        let cascade = self.cascade(&family, &limbs)?;
-        Ok(PanelBranches {
-            ratio: self.ratio,
-            transitions: self.transitions(&family, &limbs)?,
-            limbs: limbs
-                .iter()
-                .map(|limb| self.drawn(limb))
-                .collect::<Result<_, _>>()?,
-            cascade,
-            attractors,
-        })
+        Ok(())
+    }
+
+    /// Distance of two damping ratios of the diagram.
+    fn step(&self) -> f64 {
+        let mut values = self.diagram.pass(0).map(|row| row.value);
+        match (values.next(), values.next()) {
+            (Some(a), Some(b)) => b - a,
+            _ => ALONG.to - ALONG.from,
+        }
+    }
+
+    /// The stable cycle near a motion.
+    fn cycle<F: Family>(&self, family: &F, seed: &Seed) -> Result<Option<Orbit>, StudyError> {
+        let model = self.model_at(seed.zeta)?;
+        let leg = Leg {
+            system: model.system().clone(),
+            start: seed.state.clone(),
+            periods: seed.period as u64,
+        };
+        let run = record(&leg, &self.control.options)?;
+        let places: Vec<Place> = run.samples.iter().map(|at| place(&model, at)).collect();
+        let orbit = find_orbit(family, &[seed.zeta], &places, &NewtonOptions::default());
+        Ok(orbit.ok().filter(Orbit::stable))
+    }
+
+    /// Adds the branch of an orbit, with those that grow from it.
+    fn grow<F: Family>(
+        &self,
+        family: &F,
+        orbit: &Orbit,
+        known: &mut Known,
+    ) -> Result<(), StudyError> {
+        // Islands are small, and their cascades too.
+        let entire = match (self.is_papers(), known.limbs.is_empty()) {
+            (true, true) => Some(self.effort.doublings),
+            (true, false) if orbit.period() <= LONGEST => Some(self.effort.doublings.min(1)),
+            _ => None,
+        };
+        let options = BranchesOptions {
+            doublings: DOUBLINGS,
+            entire: entire.unwrap_or(0),
+            longest: self.effort.cascade_period,
+            closest: CLOSEST,
+            branches: 100,
+            continuation: ContinuationOptions {
+                points: 600,
+                unstable: entire.map_or(BEYOND, |_| usize::MAX),
+                ..ContinuationOptions::default()
+            },
+            ..BranchesOptions::default()
+        };
+        let mut go_on = |_: &Point| self.stopped().is_ok();
+        let limbs = branches(family, orbit, &ALONG, &options, &mut go_on);
+        self.stopped()?;
+        let first = known.limbs.len();
+        for limb in renumbered(limbs.unwrap_or_default(), &known.limbs) {
+            // One from a period halving on may be that of an earlier motion.
+            let middle = &limb.branch.points[limb.branch.points.len() / 2];
+            if !self.is_known(family, &known.limbs[..first], &middle.orbit) {
+                known.limbs.push(limb);
+            }
+        }
+        let section = |orbit: &Orbit| {
+            let model = self.model_at(orbit.parameters[0])?;
+            let place = |place: &Place| [model.z(0, &place.x), model.v(0, &place.x)];
+            Ok::<_, StudyError>(orbit.places.iter().map(place).collect())
+        };
+        collect(&known.limbs, first, section, &mut known.stretches)
     }
 
     /// An orbit that is not found is no error, a stop is.
@@ -210,51 +390,6 @@ impl<'a> Panel<'a> {
         follow(&values, model_at, &starts, &Search::default(), self.control)
     }
 
-    /// Orbits of all attractors, one for each period that each of them shows: cascades, windows and islands.
-    fn others<F>(&self, family: &F, attractors: &Lineages) -> Result<Vec<Orbit>, StudyError>
-    where
-        F: Family,
-    {
-        let rows = attractors.rows.iter();
-        let rows = rows.filter_map(|row| Some((row.value, row.census.as_ref().ok()?)));
-        let all =
-            rows.flat_map(|(zeta, census)| census.attractors.iter().map(move |one| (zeta, one)));
-        let mut seen: BTreeMap<(usize, u32), (f64, &hybrid::Point)> = BTreeMap::new();
-        for (zeta, one) in all {
-            if let Kind::Periodic(n) = one.entry.attractor.kind
-                && n <= LONGEST
-            {
-                seen.entry((one.identity, n))
-                    .or_insert((zeta, &one.arrival.point));
-            }
-        }
-        let mut out = Vec::new();
-        for ((_, period), (zeta, point)) in seen {
-            let model = self.model_at(zeta)?;
-            let run = saltus_hybrid::record(
-                &saltus_hybrid::Leg {
-                    system: model.system().clone(),
-                    start: point.clone(),
-                    periods: period.into(),
-                },
-                &self.control.options,
-            )?;
-            let places: Vec<Place> = run
-                .samples
-                .iter()
-                .map(|point| place(&model, point))
-                .collect();
-            out.extend(find_orbit(
-                family,
-                &[zeta],
-                &places,
-                &NewtonOptions::default(),
-            ));
-            self.stopped()?;
-        }
-        Ok(out)
-    }
-
     /// Whether an orbit lies on one of the branches: the orbit of that branch at its damping ratio is the same.
     fn is_known<F: Family>(&self, family: &F, limbs: &[Limb], orbit: &Orbit) -> bool {
         let zeta = orbit.parameters[0];
@@ -270,149 +405,34 @@ impl<'a> Panel<'a> {
         })
     }
 
-    fn follow<F: Family>(
-        &self,
-        family: &F,
-        orbit: &Orbit,
-        doublings: usize,
-    ) -> Result<Vec<Limb>, StudyError> {
-        let options = BranchesOptions {
-            doublings,
-            continuation: ContinuationOptions {
-                points: 600,
-                ..ContinuationOptions::default()
-            },
-            ..BranchesOptions::default()
-        };
-        let mut go_on = |_: &Point| self.stopped().is_ok();
-        let limbs = branches(family, orbit, &ALONG, &options, &mut go_on);
-        self.stopped()?;
-        Ok(limbs.unwrap_or_default())
-    }
-
-    /// Period doublings in a row from the one at the highest damping on: each is sought from a stable orbit of the
-    /// branch that the one before has given birth to, over a range that gets shorter as the cascade does.
-    fn cascade<F: Family>(
-        &self,
-        family: &F,
-        limbs: &[Limb],
-    ) -> Result<Vec<(usize, f64)>, StudyError> {
-        let doubles = |special: &&Special| {
-            special.kind == SpecialKind::PeriodDoubling && special.outside.contains(&0)
-        };
-        let specials = limbs.iter().flat_map(|limb| limb.branch.specials.iter());
-        let mut chain: Vec<(usize, f64)> = Vec::new();
-        let mut doublings: Vec<&Special> = specials.filter(doubles).collect();
-        doublings.sort_by(|a, b| b.parameter.total_cmp(&a.parameter));
-        for special in doublings {
-            let period = special.orbit.period();
-            if chain.last().is_none_or(|(last, _)| 2 * last == period) {
-                chain.push((period, special.parameter));
-            }
-        }
-        while let [.., (_, before), (period, last)] = chain[..]
-            && period < self.effort.cascade_period
-        {
-            self.stopped()?;
-            let gap = before - last;
-            let Some(next) = self.next_doubling(family, limbs, period, last, gap) else {
-                break;
-            };
-            chain.push((2 * period, next));
-        }
-        Ok(chain)
-    }
-
-    /// The doubling after the one of `period` at `last`, which came `gap` after the one before.
-    fn next_doubling<F: Family>(
-        &self,
-        family: &F,
-        limbs: &[Limb],
-        period: usize,
-        last: f64,
-        gap: f64,
-    ) -> Option<f64> {
-        let specials = limbs.iter().flat_map(|limb| limb.branch.specials.iter());
-        let near = |s: &&Special| (s.parameter - last).abs() < 1e-9 && s.orbit.period() == period;
-        let at = specials
-            .clone()
-            .find(near)
-            .map(|special| special.orbit.clone());
-        let above = last + 0.02 * gap;
-        let seed = match at {
-            Some(orbit) => orbit,
-            None => self.stable_cycle(family, 2 * period, last - 0.05 * gap)?,
-        };
-        // The mother of the next doubling, followed from just above its birth or from within its stable stretch.
-        let along = Along {
-            parameter: 0,
-            from: last - 0.5 * gap,
-            to: above,
-        };
-        let options = BranchesOptions {
-            doublings: 1,
-            crossings: false,
-            branches: 2,
-            continuation: ContinuationOptions {
-                points: 60,
-                ..ContinuationOptions::default()
-            },
-        };
-        let start = find_orbit(
-            family,
-            &[seed.parameters[0]],
-            &seed.places,
-            &NewtonOptions::default(),
-        );
-        // No further than past the doubling of the doubled branch.
-        let (mut settled, mut past) = (false, false);
-        let mut go_on = |point: &Point| {
-            let doubled = point.orbit.period() == 2 * period;
-            past |= doubled && settled && !point.stable;
-            settled |= doubled && point.stable;
-            !past && self.stopped().is_ok()
-        };
-        let limbs = branches(family, &start.ok()?, &along, &options, &mut go_on);
-        let limbs = limbs.ok()?;
-        let found = limbs.iter().flat_map(|limb| limb.branch.specials.iter());
-        let mut next: Vec<f64> = found
-            .filter(|s| s.kind == SpecialKind::PeriodDoubling && s.orbit.period() == 2 * period)
-            .map(|s| s.parameter)
-            .collect();
-        next.sort_by(|a, b| b.total_cmp(a));
-        next.first().copied()
-    }
-
-    /// The stable cycle of this period that the long-term motion at a damping ratio settles on.
-    fn stable_cycle<F: Family>(&self, family: &F, period: usize, zeta: f64) -> Option<Orbit> {
-        let model = self.model_at(zeta).ok()?;
-        let run = saltus_hybrid::record(
-            &saltus_hybrid::Leg {
-                system: model.system().clone(),
-                start: model.start(3.0, 2.0),
-                periods: 3000 + period as u64,
-            },
-            &self.control.options,
-        );
-        let samples = run.ok()?.samples;
-        let last = &samples[samples.len() - period..];
-        let places: Vec<Place> = last.iter().map(|point| place(&model, point)).collect();
-        let orbit = find_orbit(family, &[zeta], &places, &NewtonOptions::default()).ok()?;
-        (orbit.period() == period).then_some(orbit)
-    }
-
     fn transitions<F: Family>(
         &self,
         family: &F,
         limbs: &[Limb],
     ) -> Result<Vec<Transition>, StudyError> {
-        let mut out = Vec::new();
+        let mut out: Vec<Transition> = Vec::new();
         let all = limbs.iter().map(|limb| &limb.branch);
         let all =
             all.flat_map(|branch| branch.specials.iter().map(move |special| (branch, special)));
         for (branch, special) in all {
             self.stopped()?;
             let model = self.model_at(special.parameter)?;
+            let heights = heights(&model, &special.orbit);
+            let again = |other: &Transition| {
+                let apart = |a: &f64| {
+                    heights
+                        .iter()
+                        .map(|b| (a - b).abs())
+                        .fold(f64::INFINITY, f64::min)
+                };
+                other.kind.short() == special.kind.short()
+                    && other.period == special.orbit.period()
+                    && (other.damping_ratio - special.parameter).abs() < TWICE[0]
+                    && other.heights.iter().all(|z| apart(z) < TWICE[1])
+            };
+            if out.iter().any(again) {
+                continue;
+            }
             out.push(Transition {
                 label: special.label.clone(),
                 kind: special.kind.clone(),
@@ -421,7 +441,7 @@ impl<'a> Panel<'a> {
                 period: special.orbit.period(),
                 seen: special.outside.contains(&0),
                 sequence: sequence(&model, &special.orbit),
-                heights: heights(&model, &special.orbit),
+                heights,
             });
         }
         out.sort_by(|a, b| b.damping_ratio.total_cmp(&a.damping_ratio));
@@ -461,6 +481,30 @@ impl<'a> Panel<'a> {
         }
         Ok(out)
     }
+}
+
+/// A motion on each cycle of a census.
+fn of_census(attractors: &Lineages) -> Vec<Seed> {
+    let rows = attractors.rows.iter();
+    let rows = rows.filter_map(|row| Some((row.value, row.census.as_ref().ok()?)));
+    let all = rows.flat_map(|(zeta, census)| census.attractors.iter().map(move |one| (zeta, one)));
+    let seeds = all.filter_map(|(zeta, one)| {
+        let Kind::Periodic(period) = one.entry.attractor.kind else {
+            return None;
+        };
+        let section = one.arrival.section.first()?;
+        let (z, v) = section.iter().map(|&[z, v]| (z, v)).unzip();
+        Some(Seed {
+            zeta,
+            period: period as usize,
+            state: one.arrival.point.clone(),
+            z,
+            v,
+        })
+    });
+    let mut seeds: Vec<Seed> = seeds.collect();
+    seeds.sort_by_key(|seed| seed.period);
+    seeds
 }
 
 /// New branches with labels that go on from those of the known ones.

@@ -2,14 +2,12 @@
 
 use std::sync::Arc;
 
-use saltus_hybrid::{Point, Status};
+use saltus_hybrid::Status;
 
-use super::{Effort, RATIOS, setup};
+use super::{Effort, RATIOS, Stretch, setup};
 use crate::model::{Inertia, Model, ModelError, PreparedPlate};
 use crate::physics::{ContactLaw, FrequencyReference, Plate};
-use crate::study::{
-    Control, Pass, Settled, StudyError, Sweep, SweepRow, recurrence, settle, sweep_many,
-};
+use crate::study::{Control, Pass, StudyError, Sweep, SweepRow, recurrence, sweep_many};
 
 /// One panel of Fig. 2 under one contact law and one reading of omega_h.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,9 +26,8 @@ pub struct Diagram {
     pub rows: Vec<SweepRow>,
 }
 
-/// Samples agree when they are this close, in units of eta: far below what a figure shows, far above
-/// what a converged orbit leaves after 300 periods away from bifurcations.
-const SAME: f64 = 1e-3;
+/// Samples that repeat this closely (eta) may be on a cycle, or on a slow way to one.
+pub(super) const REPEATS: f64 = 1e-3;
 
 /// All diagrams: the paper's law under both readings with every pass, the other two laws under the
 /// occupied reading with the up- and down-sweep, on their own coarser grid.
@@ -102,17 +99,6 @@ fn model_at(
     move |zeta| setup(zeta, ratio, reference, law, Inertia::Condensed).model_on(&plate)
 }
 
-/// A stretch of damping ratios with one period.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Regime {
-    /// Forcing periods after which the samples repeat; `None` if they do not.
-    pub period: Option<u32>,
-    /// First damping ratio.
-    pub from: f64,
-    /// Last damping ratio.
-    pub to: f64,
-}
-
 impl Diagram {
     /// The model at a damping ratio.
     ///
@@ -127,165 +113,32 @@ impl Diagram {
     pub fn pass(&self, pass: usize) -> impl Iterator<Item = &SweepRow> {
         self.rows.iter().filter(move |row| row.pass == pass)
     }
-}
 
-/// Period of the kept samples of the first body.
-fn period(row: &SweepRow) -> Option<u32> {
-    if row.status != Ok(Status::Completed) {
-        return None;
-    }
-    recurrence(row.z.first()?, row.v.first()?, SAME)
-}
-
-/// Stretches of equal period along one pass.
-pub fn regimes(diagram: &Diagram, pass: usize) -> Vec<Regime> {
-    let mut out: Vec<Regime> = Vec::new();
-    for row in diagram.pass(pass) {
-        let period = period(row);
-        match out.last_mut().filter(|last| last.period == period) {
-            Some(last) => last.to = row.value,
-            None => out.push(Regime {
-                period,
-                from: row.value,
-                to: row.value,
-            }),
-        }
-    }
-    out
-}
-
-/// A stretch of damping ratios with two attractors.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Coexistence {
-    /// First damping ratio.
-    pub from: f64,
-    /// Last damping ratio.
-    pub to: f64,
-    /// Periods of two attractors found in it, at its first damping ratio; `None` does not repeat.
-    pub periods: (Option<u32>, Option<u32>),
-}
-
-/// Periods to run on before two motions are compared, and again before they are compared once more.
-const CONFIRM: u64 = 500;
-
-/// Two motions approach each other if a confirmation shrinks their distance below this part of it.
-const APPROACHING: f64 = 0.9;
-
-/// Where two passes of a diagram end on different attractors, at least one of them periodic.
-///
-/// Near a bifurcation two passes differ for a long time because transients die slowly. So each pair
-/// that differs is run on twice for 500 periods: on different attractors the distance of the two sets
-/// of points stays what it is, in a slow transient it shrinks.
-///
-/// # Errors
-/// [`StudyError`] if there is no model of the paper's plate, or when stopped.
-pub fn coexistence(diagram: &Diagram, control: &Control) -> Result<Vec<Coexistence>, StudyError> {
-    let plate = PreparedPlate::new(&Plate::dias_del_prado())?;
-    let model_at = model_at(&plate, diagram.law, diagram.reference, diagram.ratio);
-    let (candidates, starts) = candidates(diagram, model_at)?;
-    let once = settle(&starts, CONFIRM, 100, control)?;
-    let on =
-        |((model, _), settled): (&(Model, Point), &Settled)| (model.clone(), settled.end.clone());
-    let starts: Vec<_> = starts.iter().zip(&once).map(on).collect();
-    let twice = settle(&starts, CONFIRM, 100, control)?;
-    let mut out: Vec<Coexistence> = Vec::new();
-    let mut last = None;
-    for ((row, value), (once, twice)) in candidates
-        .into_iter()
-        .zip(once.chunks(2).zip(twice.chunks(2)))
-    {
-        let distance = |pair: &[Settled]| Motion::of(&pair[0]).distance(&Motion::of(&pair[1]));
-        let (before, after) = (distance(once), distance(twice));
-        let periods = (
-            Motion::of(&twice[0]).period(),
-            Motion::of(&twice[1]).period(),
-        );
-        let apart = after > 2.0 * SAME && after > APPROACHING * before;
-        if !apart || periods == (None, None) {
-            continue;
-        }
-        match out.last_mut().filter(|_| row > 0 && last == Some(row - 1)) {
-            Some(stretch) => stretch.to = value,
-            None => out.push(Coexistence {
-                from: value,
-                to: value,
-                periods,
-            }),
-        }
-        last = Some(row);
-    }
-    Ok(out)
-}
-
-/// Rows of a diagram, by place and damping ratio, at which some pass differs from the first one.
-type Candidates = Vec<(usize, f64)>;
-
-/// The candidates, and for each the last states of the two passes that differ most.
-fn candidates(
-    diagram: &Diagram,
-    model_at: impl Fn(f64) -> Result<Model, ModelError>,
-) -> Result<(Candidates, Vec<(Model, Point)>), StudyError> {
-    let passes: Vec<Vec<&SweepRow>> = (0..diagram.passes.len())
-        .map(|pass| diagram.pass(pass).collect())
-        .collect();
-    let (mut candidates, mut starts) = (Vec::new(), Vec::new());
-    for i in 0..passes.first().map_or(0, Vec::len) {
-        let motions: Option<Vec<Motion<'_>>> =
-            passes.iter().map(|rows| Motion::at(rows[i])).collect();
-        let Some(motions) = motions else { continue };
-        if motions.iter().all(|motion| motion.period().is_none()) {
-            continue;
-        }
-        let distances = motions.iter().map(|motion| motion.distance(&motions[0]));
-        let farthest = distances.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
-        let Some((other, _)) = farthest.filter(|(_, distance)| *distance > SAME) else {
-            continue;
+    /// What the motion of a row has come to, held against the cycles that are stable at its damping ratio.
+    pub fn met(row: &SweepRow, stretches: &[Stretch]) -> Met {
+        let (Some(z), Some(v)) = (row.z.first(), row.v.first()) else {
+            return Met::Other;
         };
-        let ends = (&passes[0][i].end, &passes[other][i].end);
-        if let (Some(first), Some(second)) = ends {
-            let value = passes[0][i].value;
-            let model = model_at(value)?;
-            candidates.push((i, value));
-            starts.extend([(model.clone(), first.clone()), (model, second.clone())]);
+        if row.status != Ok(Status::Completed) {
+            return Met::Other;
+        }
+        let on = stretches.iter().find(|one| one.holds(row.value, z, v));
+        match (on, recurrence(z, v, REPEATS)) {
+            (Some(stretch), _) => Met::Cycle(stretch.period),
+            (None, Some(repeats)) => Met::Slow(repeats as usize),
+            (None, None) => Met::Other,
         }
     }
-    Ok((candidates, starts))
 }
 
-/// The section of a settled motion: z/eta and z'/(eta omega_h).
-struct Motion<'a> {
-    z: &'a [f64],
-    v: &'a [f64],
-}
-
-impl<'a> Motion<'a> {
-    fn at(row: &'a SweepRow) -> Option<Self> {
-        Some(Self {
-            z: row.z.first()?,
-            v: row.v.first()?,
-        })
-    }
-
-    fn of(settled: &'a Settled) -> Self {
-        Self {
-            z: &settled.z,
-            v: &settled.v,
-        }
-    }
-
-    fn period(&self) -> Option<u32> {
-        recurrence(self.z, self.v, SAME)
-    }
-
-    /// Hausdorff distance of the two sets of points, in the larger of both coordinates.
-    fn distance(&self, other: &Self) -> f64 {
-        let from = |a: &Self, b: &Self| {
-            let nearest = |(z, v): (&f64, &f64)| {
-                let gap = |(bz, bv): (&f64, &f64)| (z - bz).abs().max((v - bv).abs());
-                b.z.iter().zip(b.v).map(gap).fold(f64::INFINITY, f64::min)
-            };
-            a.z.iter().zip(a.v).map(nearest).fold(0.0, f64::max)
-        };
-        from(self, other).max(from(other, self))
-    }
+/// What a motion of a sweep has come to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Met {
+    /// A stable cycle of this period.
+    Cycle(usize),
+    /// None, though it repeats after so many periods to 1e-3 eta: a transient that is slow, as they are near a
+    /// bifurcation.
+    Slow(usize),
+    /// None, and it does not repeat.
+    Other,
 }

@@ -4,11 +4,10 @@ use std::fmt::Write as _;
 
 use saltus_orbits::{Nature, SpecialKind};
 
-use super::{
-    CaseResult, Coexistence, Diagram, PanelBranches, RATIOS, Regime, coexistence, regimes,
-};
+use super::stretches::{cascade, families};
+use super::{Bound, CaseResult, Edge, PanelBranches, RATIOS, Stretch};
 use crate::physics::{ContactLaw, FrequencyReference, Jumper, Plate};
-use crate::study::{Control, StudyError};
+use crate::study::StudyError;
 
 /// What became of a statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,25 +59,16 @@ type Finding = (String, Verdict);
 type Find = fn(&Evidence<'_>) -> Finding;
 
 /// All facts. `occupied` and `free` are the results of [`super::run_cases`] under both readings, `branches` those of
-/// [`super::panel_branches`], under the first.
+/// [`super::panel_branches`]. Every verdict on a regime rests on the stretches of `branches`: no sweep is asked.
 ///
 /// # Errors
-/// [`StudyError`] if there is no model of the paper's plate, or when stopped.
+/// [`StudyError`] if there is no model of the paper's plate.
 pub fn facts(
-    diagrams: &[Diagram],
     occupied: &[CaseResult],
     free: &[CaseResult],
     branches: &[PanelBranches],
-    control: &Control,
 ) -> Result<Vec<Fact>, StudyError> {
     let mut out = frequencies()?;
-    let mut stretches = Vec::new();
-    for diagram in diagrams
-        .iter()
-        .filter(|d| d.law == ContactLaw::ReactionForce)
-    {
-        stretches.push((diagram, coexistence(diagram, control)?));
-    }
     let claims: [(&str, &str, Find); 5] = [
         (
             "F4",
@@ -108,15 +98,13 @@ pub fn facts(
         ),
     ];
     for (id, claim, find) in claims {
-        let evidence = |reference, cases, branches| Evidence {
-            diagrams,
-            coexistence: &stretches,
+        let evidence = |reference, cases| Evidence {
             reference,
             cases,
             branches,
         };
-        let (value, verdict) = find(&evidence(FrequencyReference::Occupied, occupied, branches));
-        let (other, its_verdict) = find(&evidence(FrequencyReference::Free, free, &[]));
+        let (value, verdict) = find(&evidence(FrequencyReference::Occupied, occupied));
+        let (other, its_verdict) = find(&evidence(FrequencyReference::Free, free));
         let reading = format!(
             "omega_h is the occupied body frequency. With the free one ({}): {other}",
             its_verdict.words()
@@ -180,27 +168,30 @@ fn frequencies() -> Result<Vec<Fact>, StudyError> {
 
 /// What a finding may look at: everything under one reading.
 struct Evidence<'a> {
-    diagrams: &'a [Diagram],
-    coexistence: &'a [(&'a Diagram, Vec<Coexistence>)],
     reference: FrequencyReference,
     cases: &'a [CaseResult],
-    /// Empty where none were followed.
     branches: &'a [PanelBranches],
 }
 
 impl Evidence<'_> {
-    fn diagram(&self, ratio: f64) -> Option<&Diagram> {
-        self.diagrams.iter().find(|d| {
-            d.law == ContactLaw::ReactionForce && d.reference == self.reference && d.ratio == ratio
-        })
-    }
-
     fn case(&self, tag: char) -> Option<&CaseResult> {
         self.cases.iter().find(|result| result.case.tag == tag)
     }
 
+    /// The panels of the paper's law.
+    fn panels(&self) -> impl Iterator<Item = &PanelBranches> {
+        let is_it = |panel: &&PanelBranches| {
+            panel.law == ContactLaw::ReactionForce && panel.reference == self.reference
+        };
+        self.branches.iter().filter(is_it)
+    }
+
     fn panel(&self, ratio: f64) -> Option<&PanelBranches> {
-        self.branches.iter().find(|panel| panel.ratio == ratio)
+        self.panels().find(|panel| panel.ratio == ratio)
+    }
+
+    fn stretches(&self, ratio: f64) -> &[Stretch] {
+        self.panel(ratio).map_or(&[], |panel| &panel.stretches)
     }
 
     fn words(&self, tag: char) -> String {
@@ -216,43 +207,36 @@ impl Evidence<'_> {
         let chaotic = |result: &CaseResult| result.verdict.nature == Nature::Chaotic;
         self.case(tag).is_some_and(chaotic)
     }
+}
 
-    /// Regimes of the up-sweep.
-    fn up(&self, ratio: f64) -> Vec<Regime> {
-        self.diagram(ratio)
-            .map_or_else(Vec::new, |diagram| regimes(diagram, 0))
-    }
-
-    fn down(&self, ratio: f64) -> Vec<Regime> {
-        self.diagram(ratio)
-            .map_or_else(Vec::new, |diagram| regimes(diagram, 1))
+/// The damping ratio of an end.
+fn at(bound: &Bound) -> String {
+    match bound.at {
+        Edge::Range => format!("{}, the end of the range", bound.damping_ratio),
+        _ => format!("{:.5}", bound.damping_ratio),
     }
 }
 
-/// Periods in order of damping, without repeats and without the slow rows at bifurcations.
-fn sequence(regimes: &[Regime]) -> Vec<u32> {
-    let mut out: Vec<u32> = regimes.iter().filter_map(|r| r.period).collect();
-    out.dedup();
-    out
-}
-
-/// First and last damping ratio with this period.
-fn range(regimes: &[Regime], period: u32) -> Option<(f64, f64)> {
-    let mut with = regimes.iter().filter(|r| r.period == Some(period));
-    let first = with.next()?;
-    Some((first.from, with.next_back().unwrap_or(first).to))
+/// Stretches in words, by falling damping.
+fn in_words<'a>(stretches: impl IntoIterator<Item = &'a Stretch>) -> String {
+    let word = |one: &Stretch| format!("{}T from {} to {}", one.period, at(&one.from), at(&one.to));
+    let words: Vec<String> = stretches.into_iter().map(word).collect();
+    words.join(", ")
 }
 
 fn f4(evidence: &Evidence<'_>) -> Finding {
-    let up = evidence.up(RATIOS[0]);
-    let value = match (range(&up, 2), range(&up, 1)) {
-        (Some((_, last)), Some((first, _))) => {
-            format!("2T up to zeta_h = {last:.3}, 1T from {first:.3}")
-        }
-        _ => format!("periods {:?}", sequence(&up)),
-    };
+    let stretches = evidence.stretches(RATIOS[0]);
+    let chain = cascade(stretches);
+    let mut value = format!("stable are {}", in_words(chain.iter().copied()));
+    let beside = stretches.iter().filter(|one| !chain.contains(one));
+    let beside = in_words(beside);
+    if !beside.is_empty() {
+        let _ = write!(value, "; beside these {beside} (see F8)");
+    }
+    let periods: Vec<usize> = chain.iter().map(|one| one.period).collect();
+    let over_the_range = chain.last().is_some_and(|last| last.from.at == Edge::Range);
     let parts = [
-        sequence(&up) == [2, 1],
+        periods == [1, 2] && over_the_range,
         evidence.has_period('a', 2),
         evidence.has_period('b', 1),
     ];
@@ -260,76 +244,64 @@ fn f4(evidence: &Evidence<'_>) -> Finding {
 }
 
 fn f5(evidence: &Evidence<'_>) -> Finding {
-    let up = evidence.up(RATIOS[1]);
-    let four = range(&up, 4);
-    let two = up
-        .iter()
-        .rev()
-        .find(|r| r.period == Some(2))
-        .map(|r| (r.from, r.to));
-    let starts_irregular = up.first().is_some_and(|r| r.period.is_none());
+    let stretches = evidence.stretches(RATIOS[1]);
+    let of = |period: usize| stretches.iter().filter(move |one| one.period == period);
+    let widest = |period| of(period).max_by(|a, b| a.width().total_cmp(&b.width()));
+    let (four, two) = (widest(4), widest(2));
     let mut value = format!(
         "zeta_h = 0.12: {}; 0.21: {}; 0.28: {}",
         evidence.words('c'),
         evidence.words('d'),
         evidence.words('e')
     );
-    if let (Some(four), Some(two)) = (four, two) {
-        let _ = write!(
-            value,
-            "; up-sweep 4T from {:.3}, 2T until {:.3}",
-            four.0, two.1
-        );
-    }
-    let ordered = four.zip(two).is_some_and(|(four, two)| four.0 < two.0);
+    let shown = stretches.iter().filter(|one| one.period <= 4);
+    let _ = write!(value, "; stable are {}", in_words(shown));
+    let ordered = four
+        .zip(two)
+        .is_some_and(|(four, two)| four.from.damping_ratio < two.from.damping_ratio);
+    let irregular = |one: &Stretch| !one.covers(0.12);
     let parts = [
-        starts_irregular && evidence.is_chaotic('c'),
-        evidence.has_period('d', 4) && ordered,
-        evidence.has_period('e', 2),
+        evidence.is_chaotic('c') && stretches.iter().all(irregular),
+        evidence.has_period('d', 4) && ordered && of(4).any(|one| one.covers(0.21)),
+        evidence.has_period('e', 2) && of(2).any(|one| one.covers(0.28)),
     ];
     (value, Verdict::from_parts(&parts))
 }
 
 fn f6(evidence: &Evidence<'_>) -> Finding {
-    let up = evidence.up(RATIOS[2]);
-    let starts_irregular = up.first().is_some_and(|r| r.period.is_none());
-    // Windows: periodic stretches between irregular ones.
-    let last_irregular = up.iter().rposition(|r| r.period.is_none()).unwrap_or(0);
-    let windows: Vec<String> = up[..last_irregular.max(1).min(up.len())]
+    let stretches = evidence.stretches(RATIOS[2]);
+    let lowest = cascade(stretches)
+        .last()
+        .map_or(f64::NAN, |last| last.from.damping_ratio);
+    let windows = families(stretches);
+    let windows: Vec<String> = windows
         .iter()
-        .filter_map(|r| Some((r.period?, r)))
-        .filter(|(_, r)| r.to > r.from)
-        .map(|(n, r)| format!("{n}T {:.3}-{:.3}", r.from, r.to))
+        .filter(|(_, range)| range[1] < lowest)
+        .map(|(period, [from, to])| format!("{period}T {from:.5}-{to:.5}"))
         .collect();
-    let value = format!(
-        "windows {}; zeta_h = 0.32: {}; 0.36: {}",
-        if windows.is_empty() {
-            "none".into()
-        } else {
-            windows.join(", ")
+    let mut value = format!(
+        "below {lowest:.5} windows, each with the doublings of its period: {}; zeta_h = 0.32: {}; 0.36: {}",
+        match windows[..] {
+            [] => "none".to_owned(),
+            _ => windows.join(", "),
         },
         evidence.words('f'),
         evidence.case('g').map_or_else(String::new, in_pairs)
     );
-    let mut value = value;
-    if let Some(panel) = evidence.panel(RATIOS[2]) {
-        let tori = panel
-            .transitions
-            .iter()
-            .filter(|t| matches!(t.kind, SpecialKind::NeimarkSacker { .. }));
-        value += match tori.count() {
-            0 => "; no branch has a Neimark-Sacker point, where a torus would begin",
-            _ => "; there are Neimark-Sacker points, where tori begin",
+    if let Some(detail) = evidence
+        .panel(RATIOS[2])
+        .and_then(|panel| panel.detail.as_ref())
+    {
+        let torus = |kind: &SpecialKind| matches!(kind, SpecialKind::NeimarkSacker { .. });
+        value += match detail.transitions.iter().any(|point| torus(&point.kind)) {
+            false => "; no branch has a Neimark-Sacker point, where a torus would begin",
+            true => "; there are Neimark-Sacker points, where tori begin",
         };
     }
     let torus = evidence
         .case('f')
         .is_some_and(|result| result.verdict.nature == Nature::QuasiPeriodic);
-    let parts = [
-        starts_irregular && !windows.is_empty(),
-        torus,
-        evidence.has_period('g', 4),
-    ];
+    let parts = [!windows.is_empty(), torus, evidence.has_period('g', 4)];
     (value, Verdict::from_parts(&parts))
 }
 
@@ -355,87 +327,79 @@ fn in_pairs(result: &CaseResult) -> String {
 }
 
 fn f7(evidence: &Evidence<'_>) -> Finding {
-    let down = evidence.down(RATIOS[2]);
-    let mut value = String::new();
-    let mut lowest = Vec::new();
-    for n in [2, 4, 8, 16] {
-        // The stretch that belongs to the cascade is the one at the highest damping.
-        if let Some(regime) = down.iter().rev().find(|r| r.period == Some(n)) {
-            let _ = write!(value, "{n}T down to {:.3}; ", regime.from);
-            lowest.push(regime.from);
-        }
-    }
-    let _ = write!(
-        value,
-        "Fig. 3h (0.45) {}, 3g (0.36) {}, 3f (0.32) {}",
+    let chain = cascade(evidence.stretches(RATIOS[2]));
+    let mut value = format!(
+        "stable are {}; Fig. 3h (0.45) {}, 3g (0.36) {}, 3f (0.32) {}",
+        in_words(chain.iter().copied()),
         evidence.words('h'),
         evidence.words('g'),
         evidence.words('f')
     );
-    let mut doubling = lowest.len() >= 3 && lowest.windows(2).all(|w| w[1] < w[0]);
-    if let Some(panel) = evidence.panel(RATIOS[2]) {
-        let at: Vec<String> = panel
-            .cascade
-            .iter()
-            .map(|(_, zeta)| format!("{zeta:.8}"))
-            .collect();
-        let _ = write!(value, "; the period doubles at {}", at.join(", "));
-        let ratios = panel.cascade_ratios();
-        if !ratios.is_empty() {
-            let ratios: Vec<String> = ratios.iter().map(|ratio| format!("{ratio:.3}")).collect();
-            let _ = write!(
-                value,
-                " (successive distances fall by {}; Feigenbaum's number is 4.669)",
-                ratios.join(", ")
-            );
-        }
-        doubling &= panel.cascade.len() >= 2;
+    let doubles = |one: &&&Stretch| one.from.at == Edge::Special(SpecialKind::PeriodDoubling);
+    let doublings = chain.iter().filter(doubles);
+    let doublings: Vec<f64> = doublings.map(|one| one.from.damping_ratio).collect();
+    let digits: Vec<String> = doublings.iter().map(|zeta| format!("{zeta:.8}")).collect();
+    let _ = write!(value, "; the period doubles at {}", digits.join(", "));
+    let ratio = |w: &[f64]| format!("{:.3}", (w[0] - w[1]) / (w[1] - w[2]));
+    let ratios: Vec<String> = doublings.windows(3).map(ratio).collect();
+    if !ratios.is_empty() {
+        let _ = write!(
+            value,
+            " (successive distances fall by {}; Feigenbaum's number is 4.669)",
+            ratios.join(", ")
+        );
     }
-    let irregular = evidence
-        .case('f')
-        .is_some_and(|result| result.recurrence.is_none());
+    let irregular = |result: &CaseResult| result.recurrence.is_none();
     let parts = [
-        doubling,
+        doublings.len() >= 3,
         evidence.has_period('h', 2) || evidence.has_period('h', 4),
-        irregular,
+        evidence.case('f').is_some_and(irregular),
     ];
     (value, Verdict::from_parts(&parts))
 }
 
+/// Stretches of coexistence named in the table.
+const LONGEST: usize = 3;
+
 fn f8(evidence: &Evidence<'_>) -> Finding {
-    let mut found: Vec<(f64, &Coexistence)> = Vec::new();
-    for (diagram, stretches) in evidence.coexistence {
-        if diagram.law == ContactLaw::ReactionForce && diagram.reference == evidence.reference {
-            found.extend(stretches.iter().map(|c| (diagram.ratio, c)));
-        }
+    let mut found = Vec::new();
+    for panel in evidence.panels() {
+        let all = overlaps(&panel.stretches);
+        found.extend(all.into_iter().map(|overlap| (panel.ratio, overlap)));
     }
     if found.is_empty() {
         return (
-            "no two passes end on different attractors".into(),
+            "no two cycles are stable at one damping ratio".into(),
             Verdict::NotReproduced,
         );
     }
-    found.sort_by(|a, b| (b.1.to - b.1.from).total_cmp(&(a.1.to - a.1.from)));
-    let name = |n: Option<u32>| n.map_or_else(|| "non-periodic".into(), |n| format!("{n}T"));
-    let words = |(ratio, c): &(f64, &Coexistence)| {
-        let (a, b) = (name(c.periods.0), name(c.periods.1));
+    found.sort_by(|(_, a), (_, b)| (b.to - b.from).total_cmp(&(a.to - a.from)));
+    let words = |(ratio, overlap): &(f64, Overlap)| {
+        let pairs: Vec<String> = overlap
+            .periods
+            .iter()
+            .map(|(a, b)| format!("{a}T and {b}T"))
+            .collect();
         format!(
-            "Omega = {ratio:.1}, zeta_h = {:.3}-{:.3} ({a} and {b} at the first)",
-            c.from, c.to
+            "Omega = {ratio:.1}, zeta_h = {:.5}-{:.5} ({})",
+            overlap.from,
+            overlap.to,
+            pairs.join(", ")
         )
     };
     let longest: Vec<String> = found.iter().take(LONGEST).map(words).collect();
-    let mut value = format!("two attractors at {}", longest.join("; "));
+    let mut value = format!("two stable cycles at {}", longest.join("; "));
     if found.len() > LONGEST {
         let _ = write!(value, "; and {} shorter stretches", found.len() - LONGEST);
     }
-    for panel in evidence.branches {
-        for found in &panel.attractors.loops {
+    for panel in evidence.panels() {
+        for found in panel
+            .detail
+            .iter()
+            .flat_map(|detail| &detail.attractors.loops)
+        {
             let end = |jump: Option<[f64; 2]>| {
-                jump.map_or_else(
-                    || "not at all".into(),
-                    |[low, high]| format!("between {low:.3} and {high:.3}"),
-                )
+                jump.map_or_else(|| "not at all".into(), |jump| jumps(&panel.stretches, jump))
             };
             let _ = write!(
                 value,
@@ -449,5 +413,58 @@ fn f8(evidence: &Evidence<'_>) -> Finding {
     (value, Verdict::Reproduced)
 }
 
-/// Stretches of coexistence named in the table.
-const LONGEST: usize = 3;
+/// Where a jump between two damping ratios is: at the only end of a stretch there that is no doubling, if so.
+fn jumps(stretches: &[Stretch], [low, high]: [f64; 2]) -> String {
+    let ends = stretches.iter().flat_map(|one| [&one.from, &one.to]);
+    let jump = |bound: &&Bound| {
+        let doubling = [SpecialKind::PeriodDoubling, SpecialKind::Halving];
+        let is_doubling = |kind: &SpecialKind| doubling.contains(kind);
+        (low..=high).contains(&bound.damping_ratio)
+            && matches!(&bound.at, Edge::Special(kind) if !is_doubling(kind))
+    };
+    match ends.filter(jump).collect::<Vec<_>>()[..] {
+        [one] => format!("at {:.5}", one.damping_ratio),
+        _ => format!("between {low:.3} and {high:.3}"),
+    }
+}
+
+/// Damping ratios at which two cycles or more are stable.
+struct Overlap {
+    from: f64,
+    to: f64,
+    /// Periods of the pairs.
+    periods: Vec<(usize, usize)>,
+}
+
+fn overlaps(stretches: &[Stretch]) -> Vec<Overlap> {
+    let mut pairs: Vec<([f64; 2], (usize, usize))> = Vec::new();
+    for (i, a) in stretches.iter().enumerate() {
+        for b in &stretches[i + 1..] {
+            let from = a.from.damping_ratio.max(b.from.damping_ratio);
+            let to = a.to.damping_ratio.min(b.to.damping_ratio);
+            // a doubling is an end of both
+            if to - from > 1e-7 {
+                let periods = (a.period.min(b.period), a.period.max(b.period));
+                pairs.push(([from, to], periods));
+            }
+        }
+    }
+    pairs.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+    let mut out: Vec<Overlap> = Vec::new();
+    for ([from, to], periods) in pairs {
+        match out.last_mut().filter(|last| from <= last.to + 1e-7) {
+            Some(last) => {
+                last.to = last.to.max(to);
+                if !last.periods.contains(&periods) {
+                    last.periods.push(periods);
+                }
+            }
+            None => out.push(Overlap {
+                from,
+                to,
+                periods: vec![periods],
+            }),
+        }
+    }
+    out
+}

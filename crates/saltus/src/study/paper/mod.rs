@@ -8,14 +8,17 @@ mod exponents;
 mod facts;
 mod inertia;
 mod misprints;
+mod stretches;
 
-pub use branches::{Drawn, PanelBranches, Transition, panel_branches};
+pub use branches::{Detail, Drawn, PanelBranches, Transition, panel_branches};
 pub use cases::{Case, CaseResult, cases, run_cases};
-pub use diagrams::{Coexistence, Diagram, Regime, coexistence, diagrams, regimes};
+use diagrams::REPEATS;
+pub use diagrams::{Diagram, Met, diagrams};
 pub use exponents::{PanelExponents, panel_exponents};
 pub use facts::{Fact, Verdict, facts};
 pub use inertia::{InertiaComparison, InertiaRow, compare_inertia};
 pub use misprints::{Misprint, misprints};
+pub use stretches::{Bound, Edge, Stretch};
 
 use crate::model::{Inertia, Setup};
 use crate::physics::{Base, BaseFrequency, ContactLaw, FrequencyReference};
@@ -48,9 +51,11 @@ pub struct Effort {
     pub census_values: usize,
     /// Starts at each.
     pub census_starts: usize,
+    /// Periods that a motion of the rising or the falling sweep that does not repeat is given to end on a cycle.
+    pub patience: u64,
     /// Doublings of the period whose branches are followed over the whole range.
     pub doublings: usize,
-    /// Longest period whose doubling is sought in the cascade.
+    /// Longest period of a cycle whose doubling is sought in a cascade.
     pub cascade_period: usize,
 }
 
@@ -69,8 +74,9 @@ impl Effort {
             panel_exponent_periods: 300,
             census_values: 41,
             census_starts: 32,
+            patience: 2000,
             doublings: 2,
-            cascade_period: 32,
+            cascade_period: 64,
         }
     }
 
@@ -88,8 +94,9 @@ impl Effort {
             panel_exponent_periods: 60,
             census_values: 17,
             census_starts: 8,
+            patience: 500,
             doublings: 1,
-            cascade_period: 4,
+            cascade_period: 16,
         }
     }
 }
