@@ -4,8 +4,9 @@ use crate::ending::{self, Ending};
 use crate::{help, output};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use saltus_commands::Shard;
+use saltus_results::shown::{printable, printable_lines};
 use std::ffi::OsString;
-use std::io::{self, IsTerminal};
+use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 
 /// People who jump on a vibrating plate.
@@ -237,11 +238,19 @@ pub(crate) struct SimulateArgs {
 
 /// The command asked for; `None` if help or the version was asked for and printed.
 pub(crate) fn parse(args: impl IntoIterator<Item = OsString>) -> Result<Option<Command>, Ending> {
-    match Cli::try_parse_from(args) {
+    let args: Vec<OsString> = args.into_iter().collect();
+    match Cli::try_parse_from(&args) {
         Ok(cli) => Ok(Some(cli.command)),
         Err(error) if error.use_stderr() => {
+            let shown = |arg: &OsString| arg.to_str().is_some_and(|arg| printable(arg) == arg);
             // standard error may be closed; the exit code says it all the same
-            let _ = error.print();
+            let _ = if args.iter().all(shown) {
+                error.print()
+            } else {
+                // what it quotes would be obeyed by a terminal; so there are no colours
+                let text = printable_lines(&error.render().to_string());
+                io::stderr().write_all(text.as_bytes())
+            };
             Err(Ending::Usage)
         }
         Err(help) => {

@@ -5,6 +5,7 @@ use crate::ending::Ending;
 use crate::output;
 use saltus_commands::{Context, Folder, describe, warnings};
 use saltus_config::Study;
+use saltus_results::shown::printable;
 use serde::Serialize;
 
 /// The JSON document.
@@ -33,5 +34,9 @@ pub(crate) fn run(args: &WorkArgs) -> Result<(), Ending> {
     if args.output.quiet {
         return Ok(());
     }
-    output::print(&format!("{file}: valid\n{}", describe(&study)?))
+    output::print(&format!(
+        "{}: valid\n{}",
+        printable(&file),
+        describe(&study)?
+    ))
 }

@@ -5,7 +5,7 @@
 //! | 0 | done |
 //! | 1 | the computation failed |
 //! | 2 | wrong usage, or a study file that says something impossible |
-//! | 3 | a file, folder or standard output cannot be read or written |
+//! | 3 | a file, folder or standard output cannot be read or written; an answer is then kept elsewhere |
 //! | 130 | interrupted (Ctrl-C) |
 //! | 141 | the reader of standard output closed it (as `head` does); nothing is said |
 
@@ -13,8 +13,10 @@ use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 use saltus_commands::Failure;
 use saltus_config::StudyErrorKind;
 use saltus_results::ResultsError;
+use saltus_results::shown::{path, printable_lines};
 use std::fmt;
 use std::io::{self, IsTerminal, Write};
+use std::path::{Path, PathBuf};
 
 /// Shown below the help text.
 pub(crate) const HELP: &str = "\
@@ -26,7 +28,8 @@ Exit codes:
   0    done
   1    the computation failed; the message says where and what to try
   2    wrong usage, or something wrong in the study file or an override
-  3    a file, folder or standard output cannot be read or written
+  3    a file, folder or standard output cannot be read or written; an answer that was computed is then kept
+       elsewhere, and the message says where
   130  interrupted (Ctrl-C); no half-written file is left
   141  standard output was closed by its reader (as `head` does); nothing is said";
 
@@ -42,6 +45,14 @@ pub(crate) enum Ending {
     /// Standard output refused.
     #[error("cannot write standard output: {0}")]
     Output(String),
+    /// Standard output refused an answer that is nowhere else; where it is kept, if anywhere.
+    #[error("cannot write standard output: {why}{}", kept(folder.as_deref()))]
+    OutputElsewhere {
+        /// Why.
+        why: String,
+        /// Where the answer is.
+        folder: Option<PathBuf>,
+    },
     /// Whoever read standard output has stopped to.
     #[error("standard output was closed")]
     ClosedPipe,
@@ -58,7 +69,7 @@ impl Ending {
         match self {
             Self::Usage => 2,
             Self::Failure(failure) => code(failure),
-            Self::Output(_) => 3,
+            Self::Output(_) | Self::OutputElsewhere { .. } => 3,
             Self::ClosedPipe => 141,
         }
     }
@@ -66,7 +77,7 @@ impl Ending {
 
 fn code(failure: &Failure) -> u8 {
     match failure {
-        Failure::Lost(reason) => code(reason),
+        Failure::Lost(reason) | Failure::Elsewhere { reason, .. } => code(reason),
         Failure::Study(error) if error.kind() == StudyErrorKind::Unreadable => 3,
         Failure::Computation { .. } | Failure::Results(ResultsError::Png { .. }) => 1,
         Failure::Study(_) | Failure::Refused { .. } => 2,
@@ -75,11 +86,35 @@ fn code(failure: &Failure) -> u8 {
     }
 }
 
-impl Diagnostic for Ending {
+fn kept(folder: Option<&Path>) -> String {
+    folder.map_or(String::new(), |folder| {
+        format!("; the whole answer is kept in `{}`", path(folder))
+    })
+}
+
+/// What is told, fit for a terminal: names and texts of others are in it.
+#[derive(Debug, thiserror::Error)]
+#[error("{message}")]
+struct Told {
+    message: String,
+    help: Option<String>,
+}
+
+impl Diagnostic for Told {
     fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        match self {
-            Self::Failure(failure) => Some(Box::new(failure.help()?)),
+        Some(Box::new(self.help.as_ref()?))
+    }
+}
+
+impl From<&Ending> for Told {
+    fn from(ending: &Ending) -> Self {
+        let help = match ending {
+            Ending::Failure(failure) => failure.help(),
             _ => None,
+        };
+        Self {
+            message: printable_lines(&ending.to_string()),
+            help: help.as_deref().map(printable_lines),
         }
     }
 }
@@ -93,7 +128,7 @@ pub(crate) fn finish(outcome: Result<(), Ending>) -> u8 {
         Ending::Usage | Ending::ClosedPipe => {}
         // with the line of the file
         Ending::Failure(Failure::Study(error)) => tell(error),
-        other => tell(other),
+        other => tell(&Told::from(other)),
     }
     ending.code()
 }

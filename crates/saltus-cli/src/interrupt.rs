@@ -1,17 +1,53 @@
-//! Ctrl-C: the first asks a computation to stop, the second ends the program at once.
+//! Ctrl-C and its like: the first asks a computation to stop, the second ends the program at once.
 
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
-/// Turns true at the first Ctrl-C. Short commands do not call this and end as any program does.
+/// What asks to stop: Ctrl-C, a scheduler, and on Unix a terminal that goes away.
+const ASKING: &[i32] = &[
+    SIGINT,
+    SIGTERM,
+    #[cfg(unix)]
+    signal_hook::consts::SIGHUP,
+];
+
+/// Exit code after the second.
+const INTERRUPTED: i32 = 130;
+
+/// Turns true at the first signal. Short commands do not call this and end as any program does.
+///
+/// A signal that is ignored at the start stays ignored: who says `nohup` wants a run to outlive the terminal.
 pub(crate) fn flag() -> Arc<AtomicBool> {
     let asked = Arc::new(AtomicBool::new(false));
-    let seen = Arc::clone(&asked);
-    // without a handler Ctrl-C ends the program at once, which is well enough
-    let _ = ctrlc::set_handler(move || {
-        if seen.swap(true, Ordering::SeqCst) {
-            std::process::exit(130);
-        }
-    });
+    let once = Arc::new(AtomicBool::new(false));
+    for &signal in ASKING.iter().filter(|&&signal| !is_ignored(signal)) {
+        // In this order: what is registered first acts first, so the program ends when `once` was raised before.
+        // Without a handler the signal ends it at once, which is well enough.
+        let _ = flag::register(signal, Arc::clone(&asked));
+        let _ = flag::register_conditional_shutdown(signal, INTERRUPTED, Arc::clone(&once));
+        let _ = flag::register(signal, Arc::clone(&once));
+    }
     asked
+}
+
+/// Linux tells of each process what it ignores. Elsewhere a child shows it, since it ignores what its parent does.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    match mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()) {
+        Some(mask) => mask >> (signal - 1) & 1 == 1,
+        None => std::process::Command::new("sh")
+            .args(["-c", &format!("kill -{signal} $$")])
+            .status()
+            .is_ok_and(|status| status.success()),
+    }
+}
+
+/// Windows knows nothing like it.
+#[cfg(not(unix))]
+fn is_ignored(_: i32) -> bool {
+    false
 }

@@ -1,6 +1,7 @@
 //! Writing: standard output without panics, files whole or not at all.
 
 use crate::ending::Ending;
+use saltus_results::shown::printable_lines;
 use serde::Serialize;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
@@ -18,7 +19,7 @@ pub(crate) fn print_json(document: &impl Serialize) -> Result<(), Ending> {
 /// Says something on standard error that is neither result nor failure.
 pub(crate) fn note(text: &str) {
     // nobody is left to tell if standard error is closed
-    let _ = writeln!(io::stderr(), "note: {text}");
+    let _ = writeln!(io::stderr(), "note: {}", printable_lines(text));
 }
 
 pub(crate) fn print_with(

@@ -49,15 +49,17 @@ impl Watch for Bars {
             return;
         }
         let (working, watch) = mpsc::channel();
-        let thread = thread::spawn(move || {
+        let draw = move || {
             let bar = bar(&stage);
             while watch.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
                 bar.set_position(stage.done.load(Ordering::Relaxed));
             }
             // a message must not follow half of it
             bar.finish_and_clear();
-        });
-        self.replace(Some(Drawn { working, thread }));
+        };
+        // no thread, no bar
+        let thread = thread::Builder::new().spawn(draw).ok();
+        self.replace(thread.map(|thread| Drawn { working, thread }));
     }
 
     fn end(&self) {

@@ -8,9 +8,10 @@ use crate::ending::Ending;
 use crate::progress::Bars;
 use crate::{check, init, interrupt, kept, output, schema};
 use saltus_commands::{
-    Answer, Context, Failure, Folder, Found, Keep, Labelled, Place, Request, Shard,
+    Answer, Context, Destination, Failure, Found, Keep, Labelled, Place, Request, Shard,
 };
 use saltus_config::Study;
+use saltus_results::shown::printable_lines;
 use std::io;
 use std::path::Path;
 use std::time::Instant;
@@ -135,25 +136,17 @@ impl How<'_> {
         }
     }
 
-    /// Refused before a long computation, but staged after it: a killed one leaves nothing behind.
-    fn try_out(&self, request: &Request, study: &Study, context: &Context) -> Result<(), Failure> {
-        match &self.output.out {
-            Some(out) => self.stage(out, request, study, context).map(drop),
-            None => Ok(()),
-        }
-    }
-
-    fn stage(
+    fn destination<'a>(
         &self,
-        out: &Path,
-        request: &Request,
-        study: &Study,
-        context: &Context,
-    ) -> Result<Folder, Failure> {
-        let folder = Folder::stage(out, Some(request), study, context)?;
-        match self.output.parquet {
-            true => folder.with_parquet(),
-            false => Ok(folder),
+        request: &'a Request,
+        study: &'a Study,
+        context: &'a Context<'a>,
+    ) -> Destination<'a> {
+        Destination {
+            request,
+            study,
+            context,
+            parquet: self.output.parquet,
         }
     }
 }
@@ -162,7 +155,9 @@ impl How<'_> {
 fn share(request: &Request, study: &Study, shard: Shard, how: &How) -> Result<(), Ending> {
     let bars = Bars::new(how.output.quiet);
     let context = how.context(&bars);
-    how.try_out(request, study, &context)?;
+    if let Some(out) = &how.output.out {
+        how.destination(request, study, &context).try_out(out)?;
+    }
     let share = request.share(study, shard, &context)?;
     tell(how.output.json, how.output.quiet, &share)
 }
@@ -172,29 +167,25 @@ fn answer(request: &Request, study: &Study, how: &How) -> Result<(), Ending> {
     let bars = Bars::new(how.output.quiet);
     let context = how.context(&bars);
     let study = &request.study(study)?;
-    how.try_out(request, study, &context)?;
+    let destination = how.destination(request, study, &context);
+    let out = how.output.out.as_deref();
+    // refused before a long computation, but staged after it
+    out.map_or(Ok(()), |out| destination.try_out(out))?;
     let mut answer = request.ask(study, &context)?;
-    if let Some(out) = &how.output.out {
-        let folder = how.stage(out, request, study, &context)?;
-        write(request, answer.as_ref(), folder)?;
+    if let Some(out) = out {
+        destination.store(out, answer.as_ref())?;
+        answer.stored()?;
     }
-    tell(how.output.json, how.output.quiet, answer.as_ref())?;
+    match tell(how.output.json, how.output.quiet, answer.as_ref()) {
+        // nowhere else is it kept
+        Err(Ending::Output(why)) if out.is_none() => {
+            let folder = destination.keep(answer.as_ref()).ok();
+            return Err(Ending::OutputElsewhere { why, folder });
+        }
+        told => told?,
+    }
     let shortfall = answer.shortfall();
-    answer.stored()?;
     shortfall.map_or(Ok(()), |failure| Err(failure.into()))
-}
-
-fn write(request: &Request, answer: &dyn Answer, mut folder: Folder) -> Result<(), Failure> {
-    let written = answer
-        .store(request, &mut folder)
-        .and_then(|()| folder.commit());
-    match (written, answer.pieces()) {
-        (Err(Failure::Interrupted), Some(pieces)) => Err(Failure::Suspended {
-            folder: pieces.to_path_buf(),
-            shard: false,
-        }),
-        (written, _) => written.map(drop),
-    }
 }
 
 /// One document, or a text for people, or nothing, as asked.
@@ -202,7 +193,7 @@ pub(crate) fn tell(json: bool, quiet: bool, answer: &dyn Answer) -> Result<(), E
     match (json, quiet) {
         (true, _) => output::print_with(|stdout| answer.document(stdout)),
         (false, true) => Ok(()),
-        (false, false) => output::print(&answer.summary()),
+        (false, false) => output::print(&printable_lines(&answer.summary())),
     }
 }
 

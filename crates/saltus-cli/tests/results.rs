@@ -323,7 +323,7 @@ fn interrupted_it_leaves_nothing() {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    let begun = |name: &String| name.starts_with(".saltus-rerun-");
+    let begun = |name: &String| name.starts_with(".saltus-staging-");
     while !desk.names().iter().any(begun) {
         assert!(run.try_wait().unwrap().is_none());
     }

@@ -311,7 +311,7 @@ fn an_interrupted_run_leaves_nothing_and_ends_with_130() {
     }
 }
 
-/// Until the program catches SIGINT, as Linux tells of each process.
+/// Until the program catches SIGTERM, as Linux tells of each process.
 #[cfg(target_os = "linux")]
 fn wait_for_handler(child: &mut std::process::Child) {
     let status = format!("/proc/{}/status", child.id());
@@ -322,7 +322,7 @@ fn wait_for_handler(child: &mut std::process::Child) {
             .lines()
             .find_map(|line| line.strip_prefix("SigCgt:"))
             .unwrap();
-        if u64::from_str_radix(caught.trim(), 16).unwrap() & 0b10 != 0 {
+        if u64::from_str_radix(caught.trim(), 16).unwrap() >> 14 & 1 == 1 {
             return;
         }
         std::thread::yield_now();
@@ -332,7 +332,7 @@ fn wait_for_handler(child: &mut std::process::Child) {
 #[cfg(target_os = "linux")]
 fn interrupt(id: u32) {
     let sent = Process::new("kill")
-        .args(["-INT", &id.to_string()])
+        .args(["-TERM", &id.to_string()])
         .status()
         .unwrap();
     assert!(sent.success());

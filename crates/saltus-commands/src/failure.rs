@@ -7,6 +7,7 @@ use saltus::physics::PhysicsError;
 use saltus::study::{OrbitError, StudyError as RunError};
 use saltus_config::StudyError;
 use saltus_results::ResultsError;
+use saltus_results::shown::path;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -39,7 +40,7 @@ pub enum Failure {
     #[error("interrupted; nothing was written")]
     Interrupted,
     /// Stopped from outside during work that can go on later.
-    #[error("interrupted; what is finished is kept in `{}`", folder.display())]
+    #[error("interrupted; what is finished is kept in `{}`", path(folder))]
     Suspended {
         /// The work folder.
         folder: PathBuf,
@@ -47,7 +48,7 @@ pub enum Failure {
         shard: bool,
     },
     /// Pieces that shall be put together are not all there and whole.
-    #[error("{} of {pieces} pieces are not there as they should be:{}", lacks.len(), list(lacks))]
+    #[error("{}:{}", counted(lacks, *pieces), list(lacks))]
     Incomplete {
         /// What is wrong, piece by piece.
         lacks: Vec<Lack>,
@@ -65,6 +66,14 @@ pub enum Failure {
     /// All parts of a long computation failed; the reason is that of the first.
     #[error(transparent)]
     Lost(Box<Failure>),
+    /// The place for an answer failed when it was there. It is kept whole in another.
+    #[error("{reason}; the whole answer is kept in `{}` instead", path(folder))]
+    Elsewhere {
+        /// Why it is not where it should be.
+        reason: Box<Failure>,
+        /// Where it is.
+        folder: PathBuf,
+    },
 }
 
 impl Failure {
@@ -114,20 +123,51 @@ impl Failure {
             Self::Suspended { shard: false, .. } => {
                 Some("the same command with --resume goes on with it".to_owned())
             }
+            Self::Incomplete { lacks, .. } if lacks.iter().all(|lack| lack.beyond.is_some()) => Some(
+                "remove what is too many, or give --resume instead of --merge: it is then left aside"
+                    .to_owned(),
+            ),
             Self::Incomplete { .. } => Some(
                 "run these shards again, or give --resume instead of --merge to compute them here"
                     .to_owned(),
             ),
             Self::Study(error) => error.advice().map(str::to_owned),
             Self::Lost(reason) => reason.help(),
+            Self::Elsewhere { .. } => Some(
+                "move it to where it belongs; `saltus cite` and `saltus rerun` take it from there too"
+                    .to_owned(),
+            ),
             Self::Results(_) | Self::Interrupted => None,
         }
+    }
+}
+
+fn counted(lacks: &[Lack], pieces: u32) -> String {
+    match lacks.iter().filter(|lack| lack.beyond.is_none()).count() {
+        0 => format!("not every file is one of the {pieces} pieces"),
+        lacking => format!("{lacking} of {pieces} pieces are not there as they should be"),
     }
 }
 
 /// One line each.
 fn list(lacks: &[Lack]) -> String {
     lacks.iter().map(|lack| format!("\n  {lack}")).collect()
+}
+
+/// Problems that are told one by one; a list for people has an end.
+const TOLD: usize = 20;
+
+/// One line each, and how many more there are.
+pub(crate) fn told<T: fmt::Display>(problems: &[T]) -> String {
+    let mut text: String = problems
+        .iter()
+        .take(TOLD)
+        .map(|p| format!("\n  {p}"))
+        .collect();
+    if let more @ 1.. = problems.len().saturating_sub(TOLD) {
+        text += &format!("\n  and {more} more");
+    }
+    text
 }
 
 impl From<RunError> for Failure {
@@ -150,11 +190,21 @@ impl From<OrbitError> for Failure {
     }
 }
 
+impl From<PhysicsError> for Failure {
+    fn from(error: PhysicsError) -> Self {
+        match error {
+            PhysicsError::Interrupted => Self::Interrupted,
+            other => Self::computation(other),
+        }
+    }
+}
+
 impl From<ModelError> for Failure {
     /// Algebra that fails is a failed computation; all else is a study that says something impossible.
     fn from(error: ModelError) -> Self {
         let message = error.to_string();
         match error {
+            ModelError::Physics(PhysicsError::Interrupted) => Self::Interrupted,
             ModelError::Physics(
                 PhysicsError::Algebra { .. } | PhysicsError::NotConverged { .. },
             ) => Self::computation(message),

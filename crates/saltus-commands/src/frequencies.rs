@@ -1,11 +1,11 @@
 //! `saltus frequencies`: the plate empty, in its plane, and with the people on it.
 
+use crate::context::Context;
 use crate::dataset::motion::jumpers;
 use crate::dataset::{about, numbered, variable};
 use crate::failure::Failure;
 use crate::request::Answer;
 use crate::store::{self, Store};
-use saltus::physics::PhysicsError;
 use saltus_config::Study;
 use saltus_results::Dataset;
 use serde::Serialize;
@@ -31,9 +31,8 @@ struct Frequencies {
     study: Study,
 }
 
-pub(crate) fn ask(study: &Study) -> Result<Box<dyn Answer>, Failure> {
-    let found = frequencies(study).map_err(Failure::computation)?;
-    Ok(Box::new(found))
+pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
+    Ok(Box::new(frequencies(study, context)?))
 }
 
 impl Answer for Frequencies {
@@ -50,12 +49,12 @@ impl Answer for Frequencies {
     }
 }
 
-fn frequencies(study: &Study) -> Result<Frequencies, PhysicsError> {
+fn frequencies(study: &Study, context: &Context) -> Result<Frequencies, Failure> {
     let (plate, jumpers) = (study.plate(), study.jumpers());
     let occupied = plate.occupied(&jumpers)?;
     Ok(Frequencies {
         plate_hz: plate.frequencies_hz()?,
-        in_plane_hz: plate.in_plane_frequencies_hz()?,
+        in_plane_hz: plate.in_plane_frequencies_hz_until(&context.stop)?,
         body_hz: occupied.body_index.map(|i| occupied.hz[i]),
         occupied_hz: occupied.hz,
         free_hz: jumpers.iter().map(|jumper| jumper.omega() / TAU).collect(),

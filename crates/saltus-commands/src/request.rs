@@ -149,7 +149,7 @@ impl Request {
     /// stopped.
     pub fn ask(&self, study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
         match self {
-            Self::Frequencies => frequencies::ask(study),
+            Self::Frequencies => frequencies::ask(study, context),
             Self::Simulate => simulate::ask(study, context),
             Self::Sweep => sweep::ask(study, context),
             Self::Map => map::ask(study, context),

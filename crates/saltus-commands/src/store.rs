@@ -6,7 +6,9 @@ use crate::failure::Failure;
 use crate::request::Request;
 use crate::twin::Twin;
 use saltus_config::Study;
-use saltus_results::{CsvTable, Dataset, Figure, ResultFolder, ResultsError, Value};
+use saltus_results::{
+    CsvTable, Dataset, Figure, Manifest, ResultFolder, ResultsError, Value, shown,
+};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -101,8 +103,12 @@ impl Folder {
     /// Prepares `dir` for what was asked and puts the resolved study in it. Done before a long computation too,
     /// so that a folder that cannot be written is refused at once.
     ///
+    /// Without a request the folder will hold the study alone, and takes the place of no answer: that may be
+    /// hours of work.
+    ///
     /// # Errors
-    /// [`Failure::Results`] if the folder cannot be written or holds files of others.
+    /// [`Failure::Results`] if the folder cannot be written or holds files of others; [`Failure::Work`] if an answer is
+    /// in it and nothing was asked.
     pub fn stage(
         dir: &Path,
         request: Option<&Request>,
@@ -110,8 +116,9 @@ impl Folder {
         context: &Context,
     ) -> Result<Self, Failure> {
         let mut inner = ResultFolder::stage(dir)?;
-        if let Some(request) = request {
-            inner.about(about(request, study));
+        match request {
+            Some(request) => inner.about(about(request, study)),
+            None => refuse_answer(dir)?,
         }
         inner.write("study.toml", study.to_toml())?;
         let stop = Arc::clone(&context.stop);
@@ -155,6 +162,19 @@ impl Folder {
         } else {
             Ok(())
         }
+    }
+}
+
+fn refuse_answer(dir: &Path) -> Result<(), Failure> {
+    match Manifest::read(dir) {
+        Ok(manifest) if !manifest.about["request"].is_null() => Err(Failure::work(
+            format!(
+                "`{}` holds an answer, which a study alone does not replace",
+                shown::path(dir)
+            ),
+            "choose another folder, or remove this one",
+        )),
+        _ => Ok(()),
     }
 }
 

@@ -1,5 +1,6 @@
 //! What is wrong with a study, where, and what would be right.
 
+use crate::shown::printable;
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use std::fmt;
 use std::ops::Range;
@@ -49,7 +50,7 @@ impl StudyError {
     pub(crate) fn new(kind: StudyErrorKind, message: impl Into<String>) -> Self {
         Self(Box::new(Problem {
             kind,
-            message: message.into(),
+            message: printable(&message.into()),
             help: None,
             key: None,
             place: None,
@@ -58,12 +59,12 @@ impl StudyError {
     }
 
     pub(crate) fn help(mut self, help: impl Into<String>) -> Self {
-        self.0.help = Some(help.into());
+        self.0.help = Some(printable(&help.into()));
         self
     }
 
     pub(crate) fn key_is(mut self, key: impl Into<String>) -> Self {
-        self.0.key = Some(key.into());
+        self.0.key = Some(printable(&key.into()));
         self
     }
 
@@ -72,13 +73,21 @@ impl StudyError {
         self
     }
 
-    /// The first problem, carrying the rest; `None` if there is none.
-    pub(crate) fn first_of(problems: Vec<Self>) -> Option<Self> {
-        let mut problems = problems.into_iter();
+    /// The first of these problems, carrying the next ones; `None` if there is none. There are `count` of them: the
+    /// list may end before.
+    pub(crate) fn first_of(problems: Vec<Self>, count: usize) -> Option<Self> {
+        let mut problems = problems.into_iter().take(Self::TOLD);
         let mut first = problems.next()?;
         first.0.others.extend(problems);
+        if let more @ 1.. = count.saturating_sub(Self::TOLD) {
+            let more = Self::new(first.kind(), format!("and {more} more"));
+            first.0.others.push(more);
+        }
         Some(first)
     }
+
+    /// How many problems are told one by one.
+    pub(crate) const TOLD: usize = 20;
 
     /// What kind of thing is wrong.
     pub fn kind(&self) -> StudyErrorKind {
@@ -102,7 +111,12 @@ impl StudyError {
         Some(before.matches('\n').count() + 1)
     }
 
-    /// Further problems found in the same reading.
+    /// Where it is in the file (bytes), if it is there.
+    pub(crate) fn start(&self) -> Option<usize> {
+        Some(self.0.place.as_ref()?.span.start)
+    }
+
+    /// Further problems found in the same reading. Beyond the twentieth problem the last one says how many more.
     pub fn others(&self) -> &[StudyError] {
         &self.0.others
     }

@@ -28,6 +28,7 @@ mod parameter;
 mod physics;
 mod plane;
 mod schema;
+mod shown;
 mod source;
 mod structure;
 mod study;

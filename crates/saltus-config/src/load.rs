@@ -8,7 +8,7 @@ use crate::key::Key;
 use crate::overrides::{self, SetBy};
 use crate::schema::Node;
 use crate::source::Source;
-use crate::structure::{self, Fault, Point};
+use crate::structure::{self, Fault, Faults, Point};
 use crate::validate;
 use serde::Deserialize;
 use std::fs::File;
@@ -63,6 +63,13 @@ pub fn read(name: &str, from: impl Read, sets: &[String]) -> Result<Study, Study
         );
         return Err(unreadable(name, &reason));
     }
+    if let Some(encoding) = other_encoding(&bytes) {
+        let reason =
+            format!("it is {encoding} text, not UTF-8, as `>` in Windows PowerShell writes it");
+        return Err(unreadable(name, &reason).help(
+            "save it as UTF-8: `saltus init paper --out FILE` does, and so does `... | Out-File -Encoding utf8 FILE`",
+        ));
+    }
     let text = String::from_utf8(bytes).map_err(|e| {
         unreadable(
             name,
@@ -73,6 +80,17 @@ pub fn read(name: &str, from: impl Read, sets: &[String]) -> Result<Study, Study
         )
     })?;
     parse(name, &text, sets)
+}
+
+/// The encoding of a text with two or four bytes to a letter: its mark, or zeros beside the first letter.
+fn other_encoding(bytes: &[u8]) -> Option<&'static str> {
+    match bytes {
+        [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => Some("UTF-32"),
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Some("UTF-16"),
+        [0, 0, 0, 1..=255, ..] | [1..=255, 0, 0, 0, ..] => Some("UTF-32"),
+        [0, 1..=255, ..] | [1..=255, 0, ..] => Some("UTF-16"),
+        _ => None,
+    }
 }
 
 fn unreadable(name: &str, reason: &str) -> StudyError {
@@ -131,14 +149,14 @@ fn study(
     };
     let tree = toml::Value::Table(table);
 
-    let mut faults = Vec::new();
+    let mut faults = Faults::default();
     structure::check(Node::root(), &tree, &Key::default(), &mut faults);
     origin.refuse(faults)?;
 
     // the structure is right, so this fails only if schema and records disagree
     let study = Study::deserialize(tree)
         .map_err(|e| StudyError::new(StudyErrorKind::Value, e.message().to_owned()))?;
-    origin.refuse(validate::faults(&study))?;
+    origin.refuse(validate::faults(&study).into_iter().collect())?;
     Ok(study)
 }
 
@@ -149,10 +167,13 @@ struct Origin<'a> {
 }
 
 impl Origin<'_> {
-    fn refuse(&self, faults: Vec<Fault>) -> Result<(), StudyError> {
-        let mut problems: Vec<StudyError> = faults.into_iter().map(|f| self.locate(f)).collect();
-        problems.sort_by_key(StudyError::line);
-        StudyError::first_of(problems).map_or(Ok(()), Err)
+    /// The problems that stand first in the file, and how many more there are.
+    fn refuse(&self, faults: Faults) -> Result<(), StudyError> {
+        let count = faults.count();
+        let located = faults.into_iter().map(|fault| self.locate(fault));
+        let mut problems: Vec<StudyError> = located.collect();
+        problems.sort_by_key(StudyError::start);
+        StudyError::first_of(problems, count).map_or(Ok(()), Err)
     }
 
     fn locate(&self, fault: Fault) -> StudyError {

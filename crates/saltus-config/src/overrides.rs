@@ -3,7 +3,7 @@
 use crate::error::{StudyError, StudyErrorKind};
 use crate::key::{Key, index};
 use crate::schema::{Kind, Node, keys};
-use crate::structure::{description, nearest};
+use crate::structure::{brackets, description, nearest, single};
 use std::collections::HashMap;
 use toml::{Table, Value};
 
@@ -30,8 +30,13 @@ pub(crate) fn apply(sets: &[String], table: Table) -> Result<(Table, SetBy), Stu
             Ok(places) => set_by.extend(places.into_iter().map(|key| (key, text.clone()))),
             Err(problem) => problems.push(problem),
         }
+        // nobody reads more of them
+        if problems.len() == StudyError::TOLD {
+            break;
+        }
     }
-    match (StudyError::first_of(problems), tree) {
+    let count = problems.len();
+    match (StudyError::first_of(problems, count), tree) {
         (None, Value::Table(table)) => Ok((table, set_by)),
         (Some(problem), _) => Err(problem),
         (None, _) => Err(malformed("", "the study itself cannot be replaced")),
@@ -124,6 +129,9 @@ pub(crate) fn set(
     match value {
         Value::Array(items) if node.kind() == Kind::Tables => {
             set_items(node, items, segments, at, new)
+        }
+        Value::Table(_) if node.kind() == Kind::Tables => {
+            Err(format!("{}; {} in the study", single(at), brackets(at)))
         }
         Value::Table(table) => {
             let child = node

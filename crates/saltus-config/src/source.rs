@@ -2,6 +2,8 @@
 
 use crate::error::{Place, StudyError, StudyErrorKind};
 use crate::key::Key;
+use crate::schema::{Kind, Node};
+use crate::shown::{printable, printable_source};
 use miette::NamedSource;
 use std::collections::HashMap;
 use std::ops::Range;
@@ -20,7 +22,8 @@ impl Source {
     /// Parses `text`; the table has plain values, the source remembers where they stood.
     pub(crate) fn parse(name: &str, text: &str) -> Result<(Self, toml::Table), StudyError> {
         let mut source = Self {
-            text: NamedSource::new(name, Arc::from(text)).with_language("TOML"),
+            text: NamedSource::new(printable(name), Arc::from(printable_source(text)))
+                .with_language("TOML"),
             keys: HashMap::new(),
             values: HashMap::new(),
         };
@@ -66,9 +69,22 @@ impl Source {
             .get(..span.start)
             .map_or(1, |before| before.matches('\n').count() + 1);
         let message = error.message().trim().replace('\n', "; ");
-        StudyError::new(StudyErrorKind::Syntax, format!("{}, line {line}: {message}", self.text.name()))
-            .help("a study file is TOML: [tables] of key = value lines; `saltus init paper` prints an example")
-            .at(Some(self.place(span, "here")))
+        let name = text.get(span.clone()).unwrap_or_default();
+        let people = Node::root().child(name).map(Node::kind) == Some(Kind::Tables);
+        let help = match (message.as_str(), people) {
+            ("duplicate key", true) => format!(
+                "write [[{name}]], in double brackets, each time: once for each of them"
+            ),
+            ("duplicate key", false) => "give each table and each key once".to_owned(),
+            _ => "a study file is TOML: [tables] of key = value lines; `saltus init paper` prints an example"
+                .to_owned(),
+        };
+        StudyError::new(
+            StudyErrorKind::Syntax,
+            format!("{}, line {line}: {message}", self.text.name()),
+        )
+        .help(help)
+        .at(Some(self.place(span, "here")))
     }
 
     fn note_table(&mut self, table: &DeTable<'_>, at: &Key) {

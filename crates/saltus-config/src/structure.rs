@@ -1,6 +1,6 @@
 //! Does a table have the keys, types and ranges of the schema? All faults are found, not only the first.
 
-use crate::error::StudyErrorKind;
+use crate::error::{StudyError, StudyErrorKind};
 use crate::key::{Key, index};
 use crate::schema::{Kind, Node, keys};
 use toml::Value;
@@ -29,12 +29,18 @@ pub(crate) enum Point {
 impl Fault {
     /// A value that is wrong, with the value in the message.
     pub(crate) fn value(key: &Key, given: &Value, what: &str) -> Self {
+        let message = format!("{key} = {}: {what}", shown(given));
+        Self::told(key, message, description(key))
+    }
+
+    /// A value that is wrong, in these words.
+    fn told(key: &Key, message: String, help: Option<String>) -> Self {
         Self {
             kind: StudyErrorKind::Value,
             key: key.clone(),
             point: Point::Value,
-            message: format!("{key} = {}: {what}", shown(given)),
-            help: description(key),
+            message,
+            help,
         }
     }
 
@@ -55,8 +61,52 @@ impl Fault {
     }
 }
 
+/// Faults found: the first ones, and how many there are. A file of another kind has more than anybody reads.
+#[derive(Default)]
+pub(crate) struct Faults {
+    first: Vec<Fault>,
+    count: usize,
+}
+
+impl Faults {
+    /// More than are told, since those that stand first in the file need not be found first.
+    const KEPT: usize = 10 * StudyError::TOLD;
+
+    fn add(&mut self, fault: impl FnOnce() -> Fault) {
+        if !self.is_full() {
+            self.first.push(fault());
+        }
+        self.count += 1;
+    }
+
+    fn is_full(&self) -> bool {
+        self.first.len() >= Self::KEPT
+    }
+
+    pub(crate) fn count(&self) -> usize {
+        self.count
+    }
+}
+
+impl IntoIterator for Faults {
+    type Item = Fault;
+    type IntoIter = std::vec::IntoIter<Fault>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.first.into_iter()
+    }
+}
+
+impl FromIterator<Fault> for Faults {
+    fn from_iter<I: IntoIterator<Item = Fault>>(faults: I) -> Self {
+        let mut found = Self::default();
+        faults.into_iter().for_each(|fault| found.add(|| fault));
+        found
+    }
+}
+
 /// Appends every fault of `value`, which stands at `key`, against `node`.
-pub(crate) fn check(node: Node, value: &Value, key: &Key, faults: &mut Vec<Fault>) {
+pub(crate) fn check(node: Node, value: &Value, key: &Key, faults: &mut Faults) {
     match (node.kind(), value) {
         (Kind::Any, _) => check_any(node, value, key, faults),
         (Kind::Table, Value::Table(table)) => check_table(node, table, key, faults),
@@ -72,18 +122,20 @@ pub(crate) fn check(node: Node, value: &Value, key: &Key, faults: &mut Vec<Fault
             check_range(node, *i as f64, value, key, faults);
         }
         (Kind::Word, Value::String(word)) => check_word(node, word, value, key, faults),
-        _ => faults.push(wrong_type(node, value, key)),
+        _ => faults.add(|| wrong_type(node, value, key)),
     }
 }
 
-fn check_table(node: Node, table: &toml::Table, key: &Key, faults: &mut Vec<Fault>) {
+fn check_table(node: Node, table: &toml::Table, key: &Key, faults: &mut Faults) {
     let mut meant = Vec::new();
     for (name, value) in table {
         match node.child(name) {
             Some(child) => check(child, value, &key.child(name), faults),
             None => {
-                meant.extend(nearest(name, node.names()));
-                faults.push(unknown(node, key, name));
+                if !faults.is_full() {
+                    meant.extend(nearest(name, node.names()));
+                }
+                faults.add(|| unknown(node, key, name));
             }
         }
     }
@@ -92,13 +144,15 @@ fn check_table(node: Node, table: &toml::Table, key: &Key, faults: &mut Vec<Faul
         .required()
         .filter(|name| !table.contains_key(*name) && !meant.contains(name))
     {
-        let missing = key.child(name);
-        let help = description(&missing).map(|d| format!("{name}: {d}"));
-        faults.push(Fault::missing(&missing, help));
+        faults.add(|| {
+            let missing = key.child(name);
+            let help = description(&missing).map(|d| format!("{name}: {d}"));
+            Fault::missing(&missing, help)
+        });
     }
 }
 
-fn check_list(node: Node, items: &[Value], value: &Value, key: &Key, faults: &mut Vec<Fault>) {
+fn check_list(node: Node, items: &[Value], value: &Value, key: &Key, faults: &mut Faults) {
     #[expect(clippy::cast_precision_loss, reason = "no list has 2^52 items")]
     let length = items.len() as f64;
     let short = node.number("minItems").is_some_and(|min| length < min);
@@ -106,11 +160,16 @@ fn check_list(node: Node, items: &[Value], value: &Value, key: &Key, faults: &mu
     if short || long {
         let bounds = ["minItems", "maxItems"].map(|name| node.number(name).unwrap_or_default());
         let wanted = match bounds {
+            [_, most] if node.kind() == Kind::Tables => {
+                let message = format!("{key}: {length} were given, at most {most} are possible");
+                faults.add(|| Fault::told(key, message, description(key)));
+                return;
+            }
             [least, most] if least == most => format!("{least}"),
             [least, most] => format!("{least} to {most}"),
         };
         let what = format!("{wanted} numbers are needed, {length} were given");
-        faults.push(Fault::value(key, value, &what));
+        faults.add(|| Fault::value(key, value, &what));
         return;
     }
     for (i, item) in items.iter().enumerate() {
@@ -119,37 +178,35 @@ fn check_list(node: Node, items: &[Value], value: &Value, key: &Key, faults: &mu
 }
 
 /// NaN fails every comparison, so it is asked for what is right, not for what is wrong.
-fn check_range(node: Node, x: f64, value: &Value, key: &Key, faults: &mut Vec<Fault>) {
+fn check_range(node: Node, x: f64, value: &Value, key: &Key, faults: &mut Faults) {
     let above = node.number("minimum").is_none_or(|min| x >= min)
         && node.number("exclusiveMinimum").is_none_or(|min| x > min);
     let below = node.number("maximum").is_none_or(|max| x <= max)
         && node.number("exclusiveMaximum").is_none_or(|max| x < max);
     if !(x.is_finite() && above && below) {
-        faults.push(Fault::value(
-            key,
-            value,
-            &format!("{} is needed", node.wanted()),
-        ));
+        faults.add(|| Fault::value(key, value, &format!("{} is needed", node.wanted())));
     }
 }
 
-fn check_word(node: Node, word: &str, value: &Value, key: &Key, faults: &mut Vec<Fault>) {
+fn check_word(node: Node, word: &str, value: &Value, key: &Key, faults: &mut Faults) {
     let words = node.words();
     if !words.is_empty() && !words.contains(&word) {
-        let mut fault = Fault::value(key, value, &format!("{} is needed", node.wanted()));
-        if let Some(near) = nearest(word, words.into_iter()) {
-            fault.help = Some(format!("did you mean {near:?}?"));
-        }
-        faults.push(fault);
+        faults.add(|| {
+            let mut fault = Fault::value(key, value, &format!("{} is needed", node.wanted()));
+            if let Some(near) = nearest(word, words.into_iter()) {
+                fault.help = Some(format!("did you mean {near:?}?"));
+            }
+            fault
+        });
     }
     if node.text("format") == Some("mode-set")
         && let Err(reason) = word.parse::<crate::Modes>()
     {
-        faults.push(Fault::value(key, value, &reason));
+        faults.add(|| Fault::value(key, value, &reason));
     }
 }
 
-fn check_any(node: Node, value: &Value, key: &Key, faults: &mut Vec<Fault>) {
+fn check_any(node: Node, value: &Value, key: &Key, faults: &mut Faults) {
     let wanted = if value.is_table() {
         Kind::Table
     } else {
@@ -157,23 +214,40 @@ fn check_any(node: Node, value: &Value, key: &Key, faults: &mut Vec<Fault>) {
     };
     match node.alternatives().find(|n| n.kind() == wanted) {
         Some(branch) if value.is_table() || value.is_str() => check(branch, value, key, faults),
-        _ => faults.push(wrong_type(node, value, key)),
+        _ => faults.add(|| wrong_type(node, value, key)),
     }
 }
 
 fn wrong_type(node: Node, value: &Value, key: &Key) -> Fault {
-    let what = format!("{} was given, {} is needed", type_of(value), node.wanted());
-    let mut fault = Fault::value(key, value, &what);
-    match node.kind() {
-        Kind::Table => fault.help = Some(format!("write it as a table, [{key}]")),
-        Kind::Tables => {
-            fault.help = Some(format!(
-                "write [[{key}]], in double brackets, once for each"
-            ));
+    let tables = |items: &Vec<Value>| items.iter().all(Value::is_table);
+    match (node.kind(), value) {
+        (Kind::Tables, Value::Table(_)) => Fault::told(key, single(key), Some(brackets(key))),
+        (Kind::Table, Value::Array(items)) if tables(items) => Fault::told(
+            key,
+            format!("{key} is a list of tables, [[{key}]], and must be one table"),
+            Some(format!("write [{key}], in single brackets, once")),
+        ),
+        (kind, _) => {
+            let what = format!("{} was given, {} is needed", type_of(value), node.wanted());
+            let fault = Fault::value(key, value, &what);
+            let help = match kind {
+                Kind::Table => Some(format!("write it as a table, [{key}]")),
+                Kind::Tables => Some(brackets(key)),
+                _ => fault.help.clone(),
+            };
+            Fault { help, ..fault }
         }
-        _ => {}
     }
-    fault
+}
+
+/// What is wrong with one table in place of a list of them.
+pub(crate) fn single(key: &Key) -> String {
+    format!("{key} is one table, [{key}], and must be a list of them")
+}
+
+/// What is right then.
+pub(crate) fn brackets(key: &Key) -> String {
+    format!("write [[{key}]], in double brackets, once for each")
 }
 
 fn unknown(node: Node, table: &Key, name: &str) -> Fault {

@@ -44,14 +44,15 @@ impl Study {
 
 /// The first fault as an error that carries the others.
 pub(crate) fn refuse(faults: Vec<Fault>) -> Result<(), StudyError> {
-    let problems = faults.into_iter().map(|fault| {
+    let count = faults.len();
+    let problems = faults.into_iter().take(StudyError::TOLD).map(|fault| {
         let error = StudyError::new(fault.kind, fault.message).key_is(fault.key.to_string());
         match fault.help {
             Some(help) => error.help(help),
             None => error,
         }
     });
-    StudyError::first_of(problems.collect()).map_or(Ok(()), Err)
+    StudyError::first_of(problems.collect(), count).map_or(Ok(()), Err)
 }
 
 /// Everything that is wrong with the study.

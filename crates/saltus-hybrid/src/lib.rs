@@ -26,7 +26,7 @@ mod tangent;
 mod taylor;
 pub mod testing;
 
-pub use parallel::{integrate_all, integrate_groups, integrate_stream};
+pub use parallel::{integrate_all, integrate_groups, integrate_stream, on_threads};
 pub use record::{RecordedSwitch, Recording, record};
 pub use run::{
     End, Instructions, IntegrateError, Leg, Method, Minimum, Options, Sample, Status, Step, Switch,

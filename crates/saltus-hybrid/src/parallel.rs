@@ -127,16 +127,26 @@ where
         .try_for_each(|result| result.map_err(E::from))
 }
 
-/// `work(0)`, `work(1)`, ... on as many threads (0: as the machine has), at most `most`.
-fn on_threads<O: Send>(threads: usize, most: usize, work: impl Fn(usize) -> O + Sync) -> Vec<O> {
+/// `work(0)`, `work(1)`, ... on as many threads (0: as the machine has), at most `most`, and what they give.
+///
+/// A system may refuse a thread: its limits are reached, or there is no room for a stack. The others then do the work
+/// of those that are missing, so `work` draws what it does from a queue that all share, and the first one is the
+/// thread that calls.
+pub fn on_threads<O: Send>(
+    threads: usize,
+    most: usize,
+    work: impl Fn(usize) -> O + Sync,
+) -> Vec<O> {
     let available = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = if threads == 0 { available() } else { threads };
     let threads = threads.clamp(1, most.max(1));
     let work = &work;
     std::thread::scope(|scope| {
-        let workers: Vec<_> = (1..threads)
-            .map(|first| scope.spawn(move || work(first)))
-            .collect();
+        let begin = |number| {
+            let builder = std::thread::Builder::new();
+            builder.spawn_scoped(scope, move || work(number)).ok()
+        };
+        let workers: Vec<_> = (1..threads).map_while(begin).collect();
         let own = work(0);
         let join = |worker: std::thread::ScopedJoinHandle<'_, _>| {
             worker

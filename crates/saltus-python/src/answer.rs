@@ -8,8 +8,8 @@ use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 use saltus_commands::{
-    Answer as Answered, Context, Failure, Fill, Folder, Found, Keep, Place, Request, Rows, Store,
-    bibtex, citations,
+    Answer as Answered, Context, Destination, Failure, Fill, Folder, Found, Keep, Place, Request,
+    Rows, Store, bibtex, citations,
 };
 use saltus_config::Study;
 use saltus_results::{Attribute, Column, Columns, Dataset, Figure as Drawing, Values, Variable};
@@ -129,15 +129,17 @@ fn asked(
     context: &Context,
 ) -> Result<Answer, Failure> {
     let study = request.study(study)?;
-    if let Some(out) = out {
-        // refused before a long computation
-        drop(Folder::stage(out, Some(&request), &study, context)?);
-    }
+    let destination = Destination {
+        request: &request,
+        study: &study,
+        context,
+        parquet: false,
+    };
+    // refused before a long computation
+    out.map_or(Ok(()), |out| destination.try_out(out))?;
     let mut found = request.ask(&study, context)?;
     if let Some(out) = out {
-        let mut folder = Folder::stage(out, Some(&request), &study, context)?;
-        found.store(&request, &mut folder)?;
-        folder.commit()?;
+        destination.store(out, found.as_ref())?;
         found.stored()?;
     }
     Ok(Answer {

@@ -28,9 +28,10 @@ pub(crate) fn of(failure: &Failure) -> PyErr {
         Failure::Computation { .. } | Failure::Results(ResultsError::Png { .. }) => {
             of_computation(text)
         }
-        Failure::Results(_) | Failure::Work { .. } | Failure::Incomplete { .. } => {
-            ResultError::new_err((text,))
-        }
+        Failure::Results(_)
+        | Failure::Work { .. }
+        | Failure::Incomplete { .. }
+        | Failure::Elsewhere { .. } => ResultError::new_err((text,)),
         Failure::Interrupted | Failure::Suspended { .. } => PyKeyboardInterrupt::new_err((text,)),
     }
 }

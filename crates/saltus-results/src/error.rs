@@ -1,5 +1,6 @@
 //! Why a result could not leave: one enum for the whole crate.
 
+use crate::shown;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -8,7 +9,7 @@ use std::path::{Path, PathBuf};
 #[non_exhaustive]
 pub enum ResultsError {
     /// The operating system refused a file operation.
-    #[error("cannot {action} `{}`: {}", path.display(), reason(source))]
+    #[error("cannot {action} `{}`: {}", shown::path(path), reason(source))]
     Io {
         /// What was attempted, as a verb: "write", "create the folder", ...
         action: &'static str,
@@ -21,7 +22,7 @@ pub enum ResultsError {
     #[error(
         "the folder `{}` is not empty and holds no `{marker}`: \
          choose a new folder, an empty one, or one written by this program",
-        path.display()
+        shown::path(path)
     )]
     ForeignFolder {
         /// The folder that was left alone.
@@ -30,7 +31,7 @@ pub enum ResultsError {
         marker: &'static str,
     },
     /// The target of a folder is a file, or the target of a file is a folder.
-    #[error("cannot write {}: it is not a {expected}", path.display())]
+    #[error("cannot write {}: it is not a {expected}", shown::path(path))]
     WrongKind {
         /// The path in question.
         path: PathBuf,
@@ -39,14 +40,15 @@ pub enum ResultsError {
     },
     /// A name inside a result folder that is not a plain relative path.
     #[error(
-        "`{name}` is no name for a file inside a result folder: use a relative path without `..`"
+        "`{}` is no name for a file inside a result folder: use a relative path without `..`",
+        shown::printable(name)
     )]
     BadName {
         /// The refused name.
         name: String,
     },
     /// What should be a result folder is none.
-    #[error("`{}` is no result of saltus: {problem}", path.display())]
+    #[error("`{}` is no result of saltus: {problem}", shown::path(path))]
     NotAResult {
         /// The path in question.
         path: PathBuf,
@@ -54,7 +56,7 @@ pub enum ResultsError {
         problem: String,
     },
     /// The manifest of a result folder is not one that this version reads.
-    #[error("the manifest `{}` cannot be used: {problem}", path.display())]
+    #[error("the manifest `{}` cannot be used: {problem}", shown::path(path))]
     Manifest {
         /// The manifest.
         path: PathBuf,
@@ -88,7 +90,7 @@ pub enum ResultsError {
     /// A folder of pieces is in use by another run.
     #[error(
         "the folder `{}` is in use by another run{}: wait for it to end, or choose another folder",
-        path.display(),
+        shown::path(path),
         process.map(|id| format!(" (process {id})")).unwrap_or_default()
     )]
     PiecesInUse {
@@ -100,7 +102,7 @@ pub enum ResultsError {
     /// The pieces in a folder belong to other work.
     #[error(
         "the pieces in `{}` belong to other work: {differences}. Choose another folder, or remove this one",
-        path.display()
+        shown::path(path)
     )]
     ForeignPieces {
         /// The folder of pieces.
@@ -111,7 +113,7 @@ pub enum ResultsError {
     /// A folder meant for pieces holds something else.
     #[error(
         "the folder `{}` is not empty and holds no `{manifest}`: choose a new or an empty folder for the pieces",
-        path.display()
+        shown::path(path)
     )]
     NoPieces {
         /// The folder that was left alone.
@@ -120,7 +122,10 @@ pub enum ResultsError {
         manifest: &'static str,
     },
     /// A folder that should hold pieces holds none, or is not there.
-    #[error("there are no pieces in `{}`: there is no `{manifest}`", path.display())]
+    #[error(
+        "there are no pieces in `{}`: there is no `{manifest}`",
+        shown::path(path)
+    )]
     AbsentPieces {
         /// The folder in question.
         path: PathBuf,
@@ -128,7 +133,10 @@ pub enum ResultsError {
         manifest: &'static str,
     },
     /// A piece is there but not what was written.
-    #[error("the piece `{}` is damaged ({problem}); it will have to be made again", path.display())]
+    #[error(
+        "the piece `{}` is damaged ({problem}); it will have to be made again",
+        shown::path(path)
+    )]
     DamagedPiece {
         /// File of the piece.
         path: PathBuf,

@@ -2,13 +2,16 @@
 //!
 //! Everything is written to a staging place on the same file system first; only when all of it is on
 //! disk does it move to its name. A run that fails, or is interrupted, leaves the target as it was.
+//!
+//! A folder holds one result. Where it takes the place of an earlier one, files of that which it has not are removed.
 
 use crate::manifest::{Digesting, FileRecord, Manifest};
+use crate::staging::{self, STAGING, Staging};
 use crate::{Dataset, ResultsError};
+use std::collections::HashSet;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Component, Path, PathBuf};
-use tempfile::TempDir;
 
 /// Name of the file that marks a folder as written by this program: its [`Manifest`].
 pub const MARKER: &str = "saltus-result.json";
@@ -16,14 +19,11 @@ pub const MARKER: &str = "saltus-result.json";
 /// Name of the page that links the other files; it moves last.
 pub const INDEX: &str = "index.html";
 
-/// How the names of staging places begin; one left by a killed process does not make a folder foreign.
-const STAGING: &str = ".saltus-staging-";
-
 /// A folder of results in the making. Dropping it without [`commit`](Self::commit) leaves no trace.
 #[derive(Debug)]
 pub struct ResultFolder {
     target: PathBuf,
-    staging: TempDir,
+    staging: Staging,
     /// Parents that did not exist before, outermost first; removed again if nothing is committed.
     parents: Vec<PathBuf>,
     about: serde_json::Value,
@@ -34,7 +34,7 @@ impl ResultFolder {
     /// Prepares the folder `dir`, which may be absent, empty, or one written by this program.
     ///
     /// The staging place is a sibling of `dir`, or lies inside `dir` if that exists: it may be a mount
-    /// point, from which a sibling could not be moved.
+    /// point, from which a sibling could not be moved. Those that killed processes left there are removed.
     ///
     /// # Errors
     /// [`ResultsError::ForeignFolder`] if `dir` holds files of others, [`ResultsError::WrongKind`] if it
@@ -49,8 +49,12 @@ impl ResultFolder {
         let parents = missing_ancestors(&home);
         let staging = fs::create_dir_all(&home)
             .map_err(ResultsError::io("create the folder", &home))
-            .and_then(|()| staging_in(&home))
+            .and_then(|()| {
+                let staging = Staging::folder(&home, dir);
+                staging.map_err(ResultsError::io("write in the folder", &home))
+            })
             .inspect_err(|_| remove_empty(&parents))?;
+        staging::remove_left_beside(dir);
         let folder = Self {
             target: dir.to_path_buf(),
             staging,
@@ -138,8 +142,9 @@ impl ResultFolder {
 
     /// Moves everything into place and returns the folder's path.
     ///
-    /// A new folder appears in one step. In an existing one, files of the same name are replaced one
-    /// by one, each in one step, the marker first and the index page last; others stay.
+    /// A new folder appears in one step. In an existing one, files of the result that was there and which this one has
+    /// not are removed, unless somebody changed them since. Then files of the same name are replaced one
+    /// by one, each in one step, the marker first and the index page last. All other files stay.
     ///
     /// # Errors
     /// As [`stage`](Self::stage), if the target changed in between or a move fails.
@@ -163,10 +168,43 @@ impl ResultFolder {
         self.staging.path().join("content")
     }
 
+    /// Removes what is left of an earlier result and would be taken for a part of this one. A manifest that cannot be
+    /// read names nothing.
+    fn remove_others(&self) -> Result<(), ResultsError> {
+        let earlier = Manifest::read(&self.target).map_or(Vec::new(), |manifest| manifest.files);
+        let mine: HashSet<&str> = self.files.iter().map(|file| file.name.as_str()).collect();
+        for record in earlier
+            .iter()
+            .filter(|file| !mine.contains(file.name.as_str()))
+        {
+            let path = self.target.join(&record.name);
+            if !self.is_inside(&path) || record.problem(&self.target).is_some() {
+                continue;
+            }
+            fs::remove_file(&path).map_err(ResultsError::io("remove", &path))?;
+            let folders = path.ancestors().skip(1);
+            for folder in folders.take_while(|&folder| folder != self.target) {
+                // fails if something is left in it, which is as it should be
+                let _ = fs::remove_dir(folder);
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a file of the target is one, and no link on the way leads elsewhere.
+    fn is_inside(&self, path: &Path) -> bool {
+        let real = |path: &Path| fs::canonicalize(path).ok();
+        let (Some(root), Ok(name)) = (real(&self.target), path.strip_prefix(&self.target)) else {
+            return false;
+        };
+        real(path) == Some(root.join(name))
+    }
+
     fn move_files(&self) -> Result<(), ResultsError> {
         // Two that end at the same time must not leave a mixture. Where there are no locks they might, and the
         // checksums of the manifest tell.
         let _alone = File::open(&self.target).and_then(|dir| dir.lock().map(|()| dir));
+        self.remove_others()?;
         let mut files: Vec<&str> = self.files.iter().map(|file| file.name.as_str()).collect();
         files.sort_by_key(|&file| match file {
             MARKER => 0,
@@ -226,15 +264,7 @@ pub fn write_file_atomically(path: &Path, bytes: impl AsRef<[u8]>) -> Result<(),
 }
 
 fn replace(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(STAGING);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // Private by default; the result shall be as readable as any file of the user.
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    let staged = builder.tempfile_in(parent(path))?;
+    let staged = staging::file(&parent(path), path)?;
     fill_file(staged.as_file(), |file| fill(file))?;
     staged.persist(path).map_err(|error| error.error)?;
     Ok(())
@@ -266,11 +296,6 @@ impl Synced for &File {
     fn synced(&self) -> io::Result<()> {
         self.sync_data()
     }
-}
-
-fn staging_in(home: &Path) -> Result<TempDir, ResultsError> {
-    let staging = tempfile::Builder::new().prefix(STAGING).tempdir_in(home);
-    staging.map_err(ResultsError::io("write in the folder", home))
 }
 
 /// Whether the folder exists; an error if it may not be written to.

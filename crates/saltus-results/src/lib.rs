@@ -2,6 +2,8 @@
 //!
 //! The crate receives plain data (slices of `f64` and labels) and knows no physics. Its parts:
 //!
+//! - [`ordinary`]: reading what others may have put there; [`shown`]: showing names of theirs;
+//! - [`staging`]: places for what is not finished, known as left over if nobody lives who made them;
 //! - [`figure`]: a small declarative figure model, rendered to SVG text and PNG bytes;
 //! - [`folder`]: result folders and single files that appear whole or not at all;
 //! - [`manifest`]: what a result folder says of itself, and whether its files are still those;
@@ -20,10 +22,13 @@ pub mod error;
 pub mod figure;
 pub mod folder;
 pub mod manifest;
+pub mod ordinary;
 pub mod page;
 #[cfg(feature = "parquet")]
 pub mod parquet;
 pub mod pieces;
+pub mod shown;
+pub mod staging;
 pub mod table;
 
 pub use columns::{Column, Columns};
@@ -40,4 +45,5 @@ pub use page::{Fact, FigureBlock, Image, Page, Verdict};
 #[cfg(feature = "parquet")]
 pub use parquet::ParquetTable;
 pub use pieces::{Damage, PieceStore, Seal, Survey};
+pub use staging::Staging;
 pub use table::{CsvTable, MarkdownTable, Value};

@@ -4,12 +4,15 @@
 //! can be no witness against who alters a file and the manifest; it tells of copies cut short, of disks
 //! that forgot, and of a table that was edited by hand.
 
-use crate::ResultsError;
 use crate::folder::{MARKER, plain};
+use crate::shown::printable;
+use crate::{ResultsError, ordinary};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use sha2::{Digest, Sha256};
+use std::collections::HashSet;
 use std::fmt::{self, Write as _};
-use std::fs::{self, File};
+use std::fs;
 use std::io::{self, Read, Write};
 use std::path::Path;
 
@@ -56,7 +59,7 @@ pub struct Problem {
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "`{}` {}", self.name, self.problem)
+        write!(f, "`{}` {}", printable(&self.name), self.problem)
     }
 }
 
@@ -85,7 +88,7 @@ impl Manifest {
     /// read.
     pub fn read(dir: &Path) -> Result<Self, ResultsError> {
         let path = dir.join(MARKER);
-        let text = fs::read(&path).map_err(|error| match why_not(dir) {
+        let text = ordinary::read(&path, ordinary::TEXT).map_err(|error| match why_not(dir) {
             Some(problem) => ResultsError::NotAResult {
                 path: dir.to_path_buf(),
                 problem,
@@ -109,7 +112,8 @@ impl Manifest {
 }
 
 impl FileRecord {
-    fn problem(&self, dir: &Path) -> Option<String> {
+    /// What is no longer as it was written.
+    pub(crate) fn problem(&self, dir: &Path) -> Option<String> {
         match self.check(&dir.join(&self.name)) {
             Ok(problem) => problem,
             Err(error) if error.kind() == io::ErrorKind::NotFound => Some("is missing".to_owned()),
@@ -118,11 +122,13 @@ impl FileRecord {
     }
 
     fn check(&self, path: &Path) -> io::Result<Option<String>> {
-        let length = fs::metadata(path)?.len();
+        let file = ordinary::open(path)?;
+        let length = file.metadata()?.len();
         if length != self.bytes {
             return Ok(Some(format!("has {length} bytes, not {}", self.bytes)));
         }
-        let altered = sha256_of(File::open(path)?)? != self.sha256;
+        // it may grow meanwhile
+        let altered = sha256_of(file.take(length))? != self.sha256;
         Ok(altered.then(|| "was altered: its checksum is another".to_owned()))
     }
 }
@@ -166,15 +172,22 @@ fn why_not(dir: &Path) -> Option<String> {
 }
 
 fn parse(text: &[u8]) -> Result<Manifest, String> {
-    let json: serde_json::Value =
+    let json: Value =
         serde_json::from_slice(text).map_err(|error| format!("it is damaged ({error})"))?;
     if json["format"] != FORMAT {
-        return Err(format!(
-            "its `format` is {}, not \"{FORMAT}\"",
-            json["format"]
-        ));
+        let given = printable(&json["format"].to_string());
+        return Err(format!("its `format` is {given}, not \"{FORMAT}\""));
     }
-    let writer = json["version"].as_str().unwrap_or("of an unknown version");
+    let writer = match &json["version"] {
+        Value::String(version) if is_version(version) => version.as_str(),
+        Value::Null => "of an unknown version",
+        other => {
+            let given = printable(&other.to_string());
+            return Err(format!(
+                "its `version` is {given}, which is none; it would be as 0.1.0"
+            ));
+        }
+    };
     match json["format_version"].as_u64() {
         Some(version) if version == u64::from(FORMAT_VERSION) => {}
         Some(version) => {
@@ -195,14 +208,23 @@ fn parse(text: &[u8]) -> Result<Manifest, String> {
     }
     let manifest: Manifest =
         serde_json::from_value(json).map_err(|error| format!("it is damaged ({error})"))?;
-    match manifest
-        .files
-        .iter()
-        .find(|file| plain(&file.name).is_err())
-    {
-        Some(file) => Err(format!("`{}` is no name for a file in it", file.name)),
-        None => Ok(manifest),
+    let mut names = HashSet::new();
+    for FileRecord { name, .. } in &manifest.files {
+        let shown = printable(name);
+        if plain(name).is_err() {
+            return Err(format!("`{shown}` is no name for a file in it"));
+        }
+        if !names.insert(name) {
+            return Err(format!("it names `{shown}` twice"));
+        }
     }
+    Ok(manifest)
+}
+
+/// Whether a text is a version as Cargo has them, such as 0.1.0-beta.2: it goes into other texts as it is.
+fn is_version(text: &str) -> bool {
+    let letter = |c: char| c.is_ascii_alphanumeric() || ".-+".contains(c);
+    text.starts_with(|c: char| c.is_ascii_digit()) && text.len() <= 64 && text.chars().all(letter)
 }
 
 /// A writer that remembers how much went through it, and its checksum.

@@ -33,7 +33,8 @@ mod work;
 pub use piece::Seal;
 pub use work::work_in;
 
-use crate::ResultsError;
+use crate::staging::whole_name;
+use crate::{ResultsError, ordinary};
 use lock::{Access, LOCK, lock};
 use std::ffi::OsString;
 use std::fs::{self, File};
@@ -44,13 +45,19 @@ use work::{compare, read_manifest, text_of};
 /// Name of the file that says which work the pieces belong to.
 pub const MANIFEST: &str = "saltus-pieces.json";
 
+/// Most bytes of a piece that is read: far more than any has.
+const LARGEST: u64 = 1 << 30;
+
 /// Name of the file with the remark.
 const REMARK: &str = "remark";
-/// How the names of files in the making end; left by a killed process, they are removed at opening.
-const ASIDE: &str = ".part";
+/// How the names of files in the making begin; six letters follow.
+const ASIDE: &str = ".tmp";
+/// How they end. Left by a killed process, they are removed at opening.
+const PART: &str = ".part";
 /// The same for a shared folder. They stay until all is removed, since the one who opens the folder alone
 /// cannot rely on a lock to know that their writers are gone.
-const ASIDE_SHARED: &str = ".shared.part";
+const PART_SHARED: &str = ".shared.part";
+const ALL_PARTS: [&str; 2] = [PART, PART_SHARED];
 
 /// A folder of numbered pieces, locked until dropped: against all other processes, or, if shared, against
 /// those that want it for themselves.
@@ -88,11 +95,7 @@ pub struct Damage {
 ///
 /// It is not inside `target`, which stays absent or as it was until all is done.
 pub fn pieces_beside(target: &Path) -> PathBuf {
-    // `.` and `..` have a name only in full.
-    let full = match target.file_name() {
-        Some(_) => target.to_path_buf(),
-        None => fs::canonicalize(target).unwrap_or(target.to_path_buf()),
-    };
+    let full = whole_name(target);
     let mut name = OsString::from(".");
     name.push(full.file_name().unwrap_or("results".as_ref()));
     name.push(".saltus-pieces");
@@ -114,7 +117,7 @@ impl PieceStore {
     pub fn open(dir: &Path, fingerprint: &[(&str, &str)]) -> Result<Self, ResultsError> {
         fs::create_dir_all(dir).map_err(ResultsError::io("create the folder", dir))?;
         let store = Self::join(dir, fingerprint, Access::Alone)?;
-        store.remove_files(|name| name.ends_with(ASIDE) && !name.ends_with(ASIDE_SHARED))?;
+        store.remove_files(|name| is_aside(name, &[PART]))?;
         Ok(store)
     }
 
@@ -194,7 +197,7 @@ impl PieceStore {
     /// read.
     pub fn read(&self, number: u32) -> Result<Option<Vec<u8>>, ResultsError> {
         let path = self.file(number);
-        let bytes = match fs::read(&path) {
+        let bytes = match ordinary::read(&path, LARGEST) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(ResultsError::io("read", &path)(error)),
@@ -230,7 +233,8 @@ impl PieceStore {
 
     /// The line that a run left last; `None` if none did or it cannot be read.
     pub fn last_remark(&self) -> Option<String> {
-        fs::read_to_string(self.dir.join(REMARK)).ok()
+        let text = ordinary::read(&self.dir.join(REMARK), ordinary::TEXT).ok()?;
+        String::from_utf8(text).ok()
     }
 
     /// Removes the pieces, the manifest and the folder. Files of others stay, and then so does the folder.
@@ -241,7 +245,7 @@ impl PieceStore {
         let Self { dir, lock, .. } = &self;
         // The manifest goes last: without it what is left would look like a folder of somebody else.
         self.remove_files(|name| {
-            name.ends_with(ASIDE) || name == REMARK || number_of(name).is_some()
+            is_aside(name, &ALL_PARTS) || name == REMARK || number_of(name).is_some()
         })?;
         self.remove_files(|name| name == MANIFEST)?;
         let _ = lock.unlock();
@@ -258,7 +262,8 @@ impl PieceStore {
             self.place(MANIFEST, &[&text_of(fingerprint)], Place::First)?;
         }
         // Read in any case: another may have been first.
-        let found = fs::read(&path).map_err(ResultsError::io("read", &path))?;
+        let found = ordinary::read(&path, ordinary::TEXT);
+        let found = found.map_err(ResultsError::io("read", &path))?;
         compare(&found, fingerprint).map_err(|differences| {
             let path = self.dir.clone();
             ResultsError::ForeignPieces { path, differences }
@@ -269,10 +274,11 @@ impl PieceStore {
     fn place(&self, name: &str, parts: &[&[u8]], place: Place) -> Result<(), ResultsError> {
         let path = self.dir.join(name);
         let suffix = match self.access {
-            Access::Alone => ASIDE,
-            Access::Shared => ASIDE_SHARED,
+            Access::Alone => PART,
+            Access::Shared => PART_SHARED,
         };
         let staged = tempfile::Builder::new()
+            .prefix(ASIDE)
             .suffix(suffix)
             .tempfile_in(&self.dir);
         staged
@@ -324,7 +330,7 @@ fn sync_folder(_: &Path) -> io::Result<()> {
 
 /// An empty folder may become one of pieces; one with other files and no manifest may not.
 fn check_ours(dir: &Path) -> Result<(), ResultsError> {
-    let foreign = |name: &String| name != LOCK && !name.ends_with(ASIDE);
+    let foreign = |name: &String| name != LOCK && !is_aside(name, &ALL_PARTS);
     // Looked for last: by then whoever put a piece into the list has put the manifest before it.
     if names(dir)?.iter().any(foreign) && !dir.join(MANIFEST).exists() {
         return Err(ResultsError::NoPieces {
@@ -347,6 +353,13 @@ fn names(dir: &Path) -> Result<Vec<String>, ResultsError> {
 
 fn file_name(number: u32) -> String {
     format!("piece-{number:06}.bin")
+}
+
+/// Whether this is a file in the making: another that happens to end so is somebody's own.
+fn is_aside(name: &str, parts: &[&str]) -> bool {
+    let letters = name.strip_prefix(ASIDE).unwrap_or_default();
+    let mut letters = parts.iter().filter_map(|part| letters.strip_suffix(part));
+    letters.any(|six| six.len() == 6 && six.bytes().all(|b| b.is_ascii_alphanumeric()))
 }
 
 /// The number in a file name that [`file_name`] made.

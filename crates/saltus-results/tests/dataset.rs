@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use hdf5_reader::Hdf5File;
+use hdf5_reader::messages::datatype::{Datatype, StringSize, VarLenKind};
 use saltus_results::{Attribute, Dataset, ResultFolder, ResultsError, Values, Variable};
 use std::fmt::Write as _;
 use std::process::Command;
@@ -183,6 +184,34 @@ fn attributes_say_what_numbers_mean() {
     assert_eq!(of("flag_meanings").read_string().unwrap(), words);
     let filled = |name: &str| file.dataset(name).unwrap().attribute("_FillValue").is_ok();
     assert!(filled("real") && filled("single") && !filled("zeta") && !filled("period"));
+}
+
+#[test]
+fn texts_of_attributes_are_characters_whatever_letters_they_have() {
+    // NC_CHAR in netCDF is a string of fixed length in HDF5; NC_STRING, of any length, is for what fits nowhere else
+    let fixed = |attribute: &hdf5_reader::Attribute| match &attribute.datatype {
+        Datatype::String { size, .. } => Some(matches!(size, StringSize::Fixed(_))),
+        Datatype::VarLen { kind, .. } => (*kind == VarLenKind::String).then_some(false),
+        _ => None,
+    };
+    let letters = "η ζ_h ".repeat(7000);
+    let dataset = dataset().attribute("letters", letters.as_str());
+    let file = Hdf5File::from_bytes(&dataset.to_bytes().unwrap()).unwrap();
+    let root = file.root_group().unwrap();
+    let mut found = root.attributes().unwrap();
+    found.extend(file.dataset("period").unwrap().attributes());
+    found.extend(file.dataset("zeta").unwrap().attributes());
+    let mut texts = 0;
+    for attribute in &found {
+        if let Some(fixed) = fixed(attribute) {
+            texts += 1;
+            assert_eq!(fixed, attribute.name != "long", "{}", attribute.name);
+        }
+    }
+    // Conventions, title, study, long, letters; units, flag_meanings; CLASS, NAME, units, long_name
+    assert_eq!(texts, 11);
+    let read = root.attribute("letters").unwrap().read_string().unwrap();
+    assert_eq!(read, letters);
 }
 
 #[test]

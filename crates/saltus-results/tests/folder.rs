@@ -2,7 +2,9 @@
 #![allow(clippy::unwrap_used)]
 
 use saltus_results::folder::{INDEX, MARKER};
-use saltus_results::{CsvTable, Manifest, ResultFolder, ResultsError, write_file_atomically};
+use saltus_results::{
+    CsvTable, Manifest, ResultFolder, ResultsError, Staging, write_file_atomically,
+};
 use std::fs;
 use std::path::Path;
 
@@ -217,4 +219,100 @@ fn of_two_writers_into_one_folder_the_last_is_there_whole() {
         let manifest = Manifest::read(&target).unwrap();
         assert_eq!(manifest.verify(&target), []);
     }
+}
+
+#[test]
+fn a_folder_holds_the_files_of_one_result() {
+    let home = tempfile::tempdir().unwrap();
+    let put = |files: &[(&str, &str)]| {
+        let mut folder = ResultFolder::stage(home.path()).unwrap();
+        for (name, text) in files {
+            folder.write(name, text).unwrap();
+        }
+        folder.commit().unwrap();
+    };
+    let earlier = [
+        ("study.toml", "a"),
+        ("map.json", "a"),
+        ("figures/map.svg", "a"),
+        ("figures/drawn.svg", "a"),
+        ("data/deep/map.csv", "a"),
+    ];
+    put(&earlier);
+    fs::write(home.path().join("notes.txt"), "mine").unwrap();
+    fs::write(
+        home.path().join("figures/drawn.svg"),
+        "a, and some hours of mine",
+    )
+    .unwrap();
+    put(&[("study.toml", "b"), ("sweep.json", "b")]);
+    let expected = ["figures", "notes.txt", MARKER, "study.toml", "sweep.json"];
+    assert_eq!(names(home.path()), expected);
+    assert_eq!(names(&home.path().join("figures")), ["drawn.svg"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn nothing_outside_is_removed_whatever_a_manifest_names() {
+    let home = tempfile::tempdir().unwrap();
+    let (out, other) = (home.path().join("out"), home.path().join("other"));
+    let mut folder = ResultFolder::stage(&out).unwrap();
+    folder.write("figures/thesis.tex", "years").unwrap();
+    folder.write("linked.txt", "years").unwrap();
+    folder.commit().unwrap();
+    fs::rename(out.join("figures"), &other).unwrap();
+    fs::rename(out.join("linked.txt"), home.path().join("linked.txt")).unwrap();
+    std::os::unix::fs::symlink(&other, out.join("figures")).unwrap();
+    std::os::unix::fs::symlink(home.path().join("linked.txt"), out.join("linked.txt")).unwrap();
+    ResultFolder::stage(&out).unwrap().commit().unwrap();
+    assert_eq!(names(&other), ["thesis.tex"]);
+    assert_eq!(names(home.path()), ["linked.txt", "other", "out"]);
+}
+
+/// Names of the staging places in a folder.
+fn staged(dir: &Path) -> Vec<String> {
+    let mut names = names(dir);
+    names.retain(|name| name.starts_with(".saltus-staging-"));
+    names
+}
+
+#[test]
+fn what_a_killed_process_staged_is_removed_by_the_next_one_with_its_target() {
+    let home = tempfile::tempdir().unwrap();
+    let out = home.path().join("out");
+    let left = |dir: &Path, target: &Path| {
+        let staging = Staging::folder(dir, target).unwrap();
+        let name = staging.path().to_path_buf();
+        drop(staging);
+        // a file that nobody holds locked
+        fs::create_dir_all(name.join("content")).unwrap();
+        fs::write(name.join("alive"), "").unwrap();
+        fs::write(name.join("content/map.csv"), "half").unwrap();
+    };
+    left(home.path(), &out);
+    left(home.path(), &home.path().join("another"));
+    let alive = ResultFolder::stage(&out).unwrap();
+    assert_eq!(staged(home.path()).len(), 2, "one is another's, one alive");
+    alive.commit().unwrap();
+    assert_eq!(staged(home.path()).len(), 1);
+    // one within the folder, and one beside it from before it was there
+    left(&out, &out);
+    left(home.path(), &out);
+    let alive = ResultFolder::stage(&out).unwrap();
+    let another = ResultFolder::stage(&out).unwrap();
+    assert_eq!(staged(&out).len(), 2, "both are alive");
+    alive.commit().unwrap();
+    another.commit().unwrap();
+    assert_eq!(names(&out), [MARKER]);
+    assert_eq!(staged(home.path()).len(), 1);
+
+    // the same for a file
+    let file = home.path().join("study.toml");
+    let place = Staging::folder(home.path(), &file).unwrap();
+    let name = place.path().to_path_buf();
+    drop(place);
+    fs::write(name, "half").unwrap();
+    write_file_atomically(&file, "whole").unwrap();
+    assert_eq!(fs::read_to_string(&file).unwrap(), "whole");
+    assert_eq!(staged(home.path()).len(), 1);
 }

@@ -119,6 +119,24 @@ fn a_manifest_that_cannot_be_used_is_told_why() {
                 "files": [{"name": "../../secret", "bytes": 1, "sha256": ""}]}"#,
             "`../../secret` is no name for a file",
         ),
+        (
+            r#"{"format": "saltus-result", "format_version": 1, "version": "0.1.0", "about": {},
+                "files": [{"name": "a\u001b[31m/", "bytes": 1, "sha256": ""}]}"#,
+            "`a\\u{1b}[31m/` is no name for a file",
+        ),
+        (
+            r#"{"format": "saltus-result", "format_version": 1, "version": "0.1.0", "about": {},
+                "files": [{"name": "a", "bytes": 1, "sha256": ""}, {"name": "a", "bytes": 1, "sha256": ""}]}"#,
+            "it names `a` twice",
+        ),
+        (
+            r#"{"format": "saltus-result", "format_version": 1, "version": "1}} @evil{x, title={", "about": {}}"#,
+            "its `version` is \"1}} @evil{x, title={\", which is none",
+        ),
+        (
+            r#"{"format": "saltus-result", "format_version": 2, "version": "\u001b[31m"}"#,
+            "which is none; it would be as 0.1.0",
+        ),
     ];
     for (text, words) in cases {
         fs::write(home.path().join(MARKER), text).unwrap();
@@ -135,4 +153,47 @@ fn a_folder_with_a_marker_of_the_first_versions_is_still_ours() {
     fs::write(home.path().join(MARKER), old).unwrap();
     folder(home.path());
     assert_eq!(Manifest::read(home.path()).unwrap().files.len(), 3);
+}
+
+/// Makes a pipe that nobody writes to.
+#[cfg(unix)]
+fn pipe(path: &Path) {
+    let made = std::process::Command::new("mkfifo").arg(path).status();
+    assert!(made.unwrap().success());
+}
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_ordinary_file_is_named_and_not_waited_for() {
+    let home = tempfile::tempdir().unwrap();
+    folder(home.path());
+    let manifest = Manifest::read(home.path()).unwrap();
+    fs::remove_file(home.path().join("empty")).unwrap();
+    pipe(&home.path().join("empty"));
+    fs::remove_file(home.path().join("long.txt")).unwrap();
+    std::os::unix::fs::symlink("/dev/zero", home.path().join("long.txt")).unwrap();
+    let problems = manifest.verify(home.path());
+    let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    assert_eq!(said.len(), 2, "{said:?}");
+    for one in said {
+        assert!(
+            one.contains("cannot be read: it is a pipe or a device"),
+            "{one}"
+        );
+    }
+    let marker = home.path().join(MARKER);
+    fs::remove_file(&marker).unwrap();
+    pipe(&marker);
+    let error = Manifest::read(home.path()).unwrap_err().to_string();
+    assert!(error.contains("it is a pipe or a device"), "{error}");
+}
+
+#[test]
+fn a_manifest_without_measure_is_refused_unread() {
+    let home = tempfile::tempdir().unwrap();
+    let file = fs::File::create(home.path().join(MARKER)).unwrap();
+    // a terabyte that takes no room
+    file.set_len(1 << 40).unwrap();
+    let error = Manifest::read(home.path()).unwrap_err().to_string();
+    assert!(error.contains("it is larger than 4 MiB"), "{error}");
 }

@@ -426,3 +426,58 @@ fn there_is_nothing_to_merge_where_there_are_no_pieces() {
         "{error}"
     );
 }
+
+#[test]
+fn a_file_of_somebody_that_ends_as_ours_do_stays() {
+    let home = tempfile::tempdir().unwrap();
+    let foreign = home.path().join("foreign");
+    fs::create_dir(&foreign).unwrap();
+    fs::write(foreign.join("thesis.part"), "years").unwrap();
+    let error = PieceStore::open(&foreign, &WORK).unwrap_err();
+    assert!(matches!(error, ResultsError::NoPieces { .. }), "{error}");
+    let ours = home.path().join("ours");
+    let store = PieceStore::open(&ours, &WORK).unwrap();
+    store.write(0, b"content").unwrap();
+    drop(store);
+    let theirs = [
+        "thesis.part",
+        ".tmp.part",
+        ".tmpthesis1.part",
+        ".tmpthe is.shared.part",
+    ];
+    for name in theirs {
+        fs::write(ours.join(name), "years").unwrap();
+    }
+    fs::write(ours.join(".tmpAbc123.part"), "half").unwrap();
+    PieceStore::open(&ours, &WORK).unwrap().remove().unwrap();
+    let mut expected = theirs.map(str::to_owned).to_vec();
+    expected.sort();
+    assert_eq!(names(&ours), expected);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_in_place_of_a_piece_or_of_the_manifest_is_not_waited_for() {
+    let home = tempfile::tempdir().unwrap();
+    four(home.path());
+    let pipe = |path: &Path| {
+        fs::remove_file(path).unwrap();
+        let made = std::process::Command::new("mkfifo").arg(path).status();
+        assert!(made.unwrap().success());
+    };
+    pipe(&piece(home.path(), 1));
+    let error = PieceStore::open(home.path(), &WORK)
+        .unwrap()
+        .survey()
+        .unwrap_err();
+    assert!(
+        error.to_string().contains("it is a pipe or a device"),
+        "{error}"
+    );
+    pipe(&home.path().join(saltus_results::pieces::MANIFEST));
+    let error = PieceStore::open(home.path(), &WORK).unwrap_err();
+    assert!(
+        error.to_string().contains("it is a pipe or a device"),
+        "{error}"
+    );
+}

@@ -5,13 +5,16 @@ use saltus::model::Model;
 use saltus::orbits::Place;
 use saltus::study::{place, point};
 use saltus_config::{Law, Parameter, Study};
-use saltus_results::ResultsError;
+use saltus_results::shown::{self, printable};
+use saltus_results::{ResultsError, ordinary};
 use serde::Deserialize;
-use std::fs;
 use std::path::Path;
 
 /// Name of the document in the folder of a result.
 const DOCUMENT: &str = "continue.json";
+
+/// Most bytes of it: a thousand branches of a thousand points.
+const LARGEST: u64 = 256 << 20;
 
 /// Advice on what else to give.
 const FOLDER: &str = "--from takes a folder that `saltus continue --out` wrote";
@@ -50,15 +53,18 @@ impl Origin {
     /// The orbit `label` of the result in `folder`.
     pub(super) fn read(folder: &Path, label: &str) -> Result<Self, Failure> {
         let path = folder.join(DOCUMENT);
-        let text = fs::read_to_string(&path).map_err(|source| ResultsError::Io {
+        let text = ordinary::read(&path, LARGEST).map_err(|source| ResultsError::Io {
             action: "read",
             path: path.clone(),
             source,
         })?;
         let damaged = |why: &dyn std::fmt::Display| {
-            Failure::work(format!("`{}` is damaged: {why}", path.display()), FOLDER)
+            Failure::work(
+                format!("`{}` is damaged: {why}", shown::path(&path)),
+                FOLDER,
+            )
         };
-        let document: Document = serde_json::from_str(&text).map_err(|e| damaged(&e))?;
+        let document: Document = serde_json::from_slice(&text).map_err(|e| damaged(&e))?;
         let study = saltus_config::load(folder.join("study.toml"), &[])?;
         let known = document.special_points.as_slice();
         let chosen = known.iter().find(|special| special.label == label);
@@ -68,7 +74,11 @@ impl Origin {
                 [] => "it has no special points at all".to_owned(),
                 labels => format!("those found: {}", labels.join(", ")),
             };
-            let message = format!("--at {label}: `{}` has no such point", path.display());
+            let message = format!(
+                "--at {}: `{}` has no such point",
+                printable(label),
+                shown::path(&path)
+            );
             return Err(Failure::refused(message, help));
         };
         let parameter = Parameter::parse(&document.parameter)?;

@@ -5,14 +5,14 @@ mod rerun;
 pub use rerun::Rerun;
 
 use crate::citations::{Citation, works};
-use crate::failure::Failure;
+use crate::failure::{Failure, told};
 use crate::request::Request;
 use saltus_config::Study;
 use saltus_results::folder::MARKER;
 use saltus_results::manifest::sha256;
-use saltus_results::{Manifest, ResultsError};
+use saltus_results::shown::path;
+use saltus_results::{Manifest, ResultsError, ordinary};
 use serde::Deserialize;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Name of the study in the folder of a result.
@@ -31,15 +31,15 @@ pub struct Kept {
 }
 
 impl Kept {
-    /// Reads the manifest and the study of a result: `path` is its folder, or a file in that.
+    /// Reads the manifest and the study of a result: `result` is its folder, or a file in that.
     ///
     /// # Errors
     /// [`Failure::Results`] if there is no result, or its manifest cannot be read; [`Failure::Work`] if it is damaged,
     /// the study in it was altered, or is not one of this version; [`Failure::Refused`] if no question was asked.
-    pub fn open(path: &Path) -> Result<Self, Failure> {
-        let folder = home(path);
+    pub fn open(result: &Path) -> Result<Self, Failure> {
+        let folder = home(result);
         let manifest = Manifest::read(&folder)?;
-        let shown = folder.display();
+        let shown = path(&folder);
         let asked = &manifest.about["request"];
         if asked.is_null() {
             return Err(Failure::refused(
@@ -84,8 +84,8 @@ impl Kept {
         if problems.is_empty() {
             return Ok(());
         }
-        let list: String = problems.iter().map(|p| format!("\n  {p}")).collect();
-        let shown = self.folder.display();
+        let list = told(&problems);
+        let shown = path(&self.folder);
         Err(Failure::work(
             format!(
                 "`{shown}` is not as it was written, so comparing with it means nothing:{list}"
@@ -107,21 +107,21 @@ fn home(path: &Path) -> PathBuf {
 
 /// The study of a result, if it is still that: another comment does no harm, another number does.
 fn study(folder: &Path, manifest: &Manifest) -> Result<Study, Failure> {
-    let path = folder.join(STUDY);
-    let bytes = fs::read(&path).map_err(|source| ResultsError::Io {
+    let file = folder.join(STUDY);
+    let bytes = ordinary::read(&file, ordinary::TEXT).map_err(|source| ResultsError::Io {
         action: "read",
-        path: path.clone(),
+        path: file.clone(),
         source,
     })?;
     let mut records = manifest.files.iter().filter(|file| file.name == STUDY);
     let same_bits = records.any(|record| record.sha256 == sha256(&bytes));
-    let study = saltus_config::read(&path.display().to_string(), &bytes[..], &[]);
+    let study = saltus_config::read(&file.display().to_string(), &bytes[..], &[]);
     match study {
         Ok(study) if same_bits || manifest.about["study_sha256"] == study.hash() => Ok(study),
         Err(error) if same_bits => Err(Failure::work(
             format!(
                 "`{}`, by saltus {}, is no study of this version: {error}",
-                path.display(),
+                path(&file),
                 manifest.version
             ),
             "the version that wrote it reads it",
@@ -129,7 +129,7 @@ fn study(folder: &Path, manifest: &Manifest) -> Result<Study, Failure> {
         _ => Err(Failure::work(
             format!(
                 "`{}` was altered: it is not the study of this result",
-                path.display()
+                path(&file)
             ),
             AGAIN,
         )),

@@ -3,10 +3,12 @@
 use super::Kept;
 use crate::about::{about, solves};
 use crate::context::Context;
+use crate::destination::Destination;
 use crate::failure::Failure;
 use crate::request::{Answer, Request};
-use crate::store::{Folder, Store, stream_json};
-use saltus_results::{Comparison, compare};
+use crate::store::{Store, stream_json};
+use saltus_results::shown::{path, printable};
+use saltus_results::{Comparison, Staging, compare};
 use serde::Serialize;
 use std::fs;
 use std::io::{self, Write};
@@ -46,42 +48,49 @@ impl Kept {
     ///
     /// # Errors
     /// [`Failure::Work`] if a file of the result is missing or altered, or the earlier result it began with is gone;
-    /// others as [`Request::ask`] and [`Folder`].
+    /// others as [`Request::ask`] and [`Destination`].
     pub fn rerun(&self, out: Option<&Path>, context: &Context) -> Result<Rerun, Failure> {
         self.intact()?;
         self.origin_is_there()?;
         let Some(out) = out else {
             let beside = beside(&self.folder)?;
-            return self.rerun_in(&beside.path().join(RESULT), context);
+            let dir = &beside.path().join(RESULT);
+            // what is kept beside it would go away with it
+            let temporary = std::env::temp_dir();
+            let keep = [temporary.as_path()];
+            return self.rerun_in(dir, context, |place, answer| {
+                place.store_or_keep_in(&keep, dir, answer)
+            });
         };
-        let real = |path: &Path| fs::canonicalize(path).ok();
+        let real = |folder: &Path| fs::canonicalize(folder).ok();
         if real(out).is_some_and(|out| Some(out) == real(&self.folder)) {
             return Err(Failure::refused(
-                format!("--out {} is the result itself", out.display()),
+                format!("--out {} is the result itself", path(out)),
                 "another folder, or none",
             ));
         }
-        let rerun = self.rerun_in(out, context)?;
+        let rerun = self.rerun_in(out, context, |place, answer| place.store(out, answer))?;
         let kept = Some(out.display().to_string());
         Ok(Rerun { kept, ..rerun })
     }
 
-    fn rerun_in(&self, dir: &Path, context: &Context) -> Result<Rerun, Failure> {
+    fn rerun_in(
+        &self,
+        dir: &Path,
+        context: &Context,
+        store: impl Fn(&Destination, &dyn Answer) -> Result<(), Failure>,
+    ) -> Result<Rerun, Failure> {
         let request = &self.request;
         let study = request.study(&self.study)?;
-        let stage = || {
-            let folder = Folder::stage(dir, Some(request), &study, context)?;
-            match self.has_parquet() {
-                true => folder.with_parquet(),
-                false => Ok(folder),
-            }
+        let destination = Destination {
+            request,
+            study: &study,
+            context,
+            parquet: self.has_parquet(),
         };
-        // refused before a long computation
-        drop(stage()?);
+        destination.try_out(dir)?;
         let answer = request.ask(&study, context)?;
-        let mut folder = stage()?;
-        answer.store(request, &mut folder)?;
-        folder.commit()?;
+        store(&destination, answer.as_ref())?;
         let comparison = compare(&self.folder, dir)?;
         let identical = comparison.identical();
         Ok(Rerun {
@@ -110,9 +119,9 @@ impl Kept {
             } if !origin.from.is_dir() => Err(Failure::work(
                 format!(
                     "`{}` begins at {} of an earlier result, and `{}` is not there",
-                    self.folder.display(),
-                    origin.at,
-                    origin.from.display()
+                    path(&self.folder),
+                    printable(&origin.at),
+                    path(&origin.from)
                 ),
                 "a path that does not begin with / is sought from the folder in which this runs",
             )),
@@ -153,22 +162,19 @@ impl Kept {
             origin: Some(origin),
         } = &self.request
         {
-            let from = origin.from.display();
+            let from = path(&origin.from);
             reasons.push(format!("`{from}`, where it begins, may have changed since"));
         }
         reasons
     }
 }
 
-fn beside(folder: &Path) -> Result<tempfile::TempDir, Failure> {
+fn beside(folder: &Path) -> Result<Staging, Failure> {
     // `.` has no parent by name
     let parent = fs::canonicalize(folder).ok();
     let parent = parent.as_deref().and_then(Path::parent).unwrap_or(folder);
-    let beside = tempfile::Builder::new()
-        .prefix(".saltus-rerun-")
-        .tempdir_in(parent);
-    beside.map_err(|error| {
-        let parent = parent.display();
+    Staging::folder(parent, folder).map_err(|error| {
+        let parent = path(parent);
         Failure::work(
             format!("the new result cannot wait in `{parent}` for its comparison: {error}"),
             "--out says where it may be kept",

@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::request::Answer;
 use crate::store::{Store, stream_json};
+use saltus_results::shown::path;
 use serde::Serialize;
 use std::fmt;
 use std::io::{self, Write};
@@ -107,7 +108,7 @@ impl Answer for Share {
     fn summary(&self) -> String {
         let Self { shard, pieces, .. } = self;
         let (made, found) = (self.made.len(), self.found.len());
-        let folder = self.folder.display();
+        let folder = path(&self.folder);
         if made + found == 0 {
             return format!(
                 "Shard {shard}: nothing to do, since the work has {pieces} pieces only\n"

@@ -6,6 +6,7 @@ use super::{Job, Lack, Shard};
 use crate::context::{Context, Found, Keep, Place};
 use crate::failure::Failure;
 use saltus_results::pieces::{MANIFEST, pieces_beside};
+use saltus_results::shown::path;
 use saltus_results::{PieceStore, ResultsError, Seal};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -87,22 +88,23 @@ impl<'a> Shelf<'a> {
     }
 
     /// What is wrong with these pieces, and who would make them.
-    pub(super) fn lacks(&self, stock: &Stock, pieces: &[u32]) -> Vec<Lack> {
+    pub(super) fn lacks(&self, stock: &Stock, pieces: &[u32], cut: Cut) -> Vec<Lack> {
         let store = match self {
             Self::Folder(store) => Some(store),
             _ => None,
         };
         let shards = store.and_then(PieceStore::last_remark);
         let shards: u32 = shards.and_then(|text| text.parse().ok()).unwrap_or(0);
-        let lack = |piece| Lack {
-            piece,
-            file: store.map(|store| store.file(piece)),
-            problem: stock
-                .damaged
-                .get(&piece)
-                .map_or("missing", String::as_str)
-                .to_owned(),
-            shard: Shard::of_piece(piece, shards),
+        let lack = |piece| {
+            let beyond = (piece >= cut.pieces()).then_some(cut.pieces());
+            let problem = stock.damaged.get(&piece);
+            Lack {
+                piece,
+                file: store.map(|store| store.file(piece)),
+                problem: problem.map_or("missing", String::as_str).to_owned(),
+                shard: Shard::of_piece(piece, shards).filter(|_| beyond.is_none()),
+                beyond,
+            }
         };
         pieces.iter().copied().map(lack).collect()
     }
@@ -164,7 +166,7 @@ fn folder(dir: &Path, found: Found, work: &[(&str, &str)]) -> Result<PieceStore,
         Found::InTheWay if dir.join(MANIFEST).exists() => Err(Failure::work(
             format!(
                 "the work folder `{}` of an interrupted run is still there",
-                dir.display()
+                path(dir)
             ),
             "add --resume to go on with it, or remove it to start anew",
         )),

@@ -169,14 +169,17 @@ fn complete(
         .is_some_and(|keep| keep.found == Found::Merge);
     let strange = stock.damaged.keys().filter(|&&piece| piece >= cut.pieces());
     let lacking: Vec<u32> = missing.iter().copied().chain(strange.copied()).collect();
-    let lacks = shelf.lacks(stock, &lacking);
+    let lacks = shelf.lacks(stock, &lacking, cut);
     if merge && !lacks.is_empty() {
         let pieces = cut.pieces();
         return Err(Failure::Incomplete { lacks, pieces });
     }
     // a run that was killed lacks what it had not come to; that is no news
     let shards = lacks.iter().any(|lack| lack.shard.is_some());
-    for piece in lacks.iter().map(|lack| lack.piece) {
+    for lack in lacks.iter().filter(|lack| lack.beyond.is_some()) {
+        context.watch.note(&lack.to_string());
+    }
+    for &piece in missing {
         if let Some(problem) = stock.damaged.get(&piece) {
             let note = format!("piece {piece} is damaged ({problem}) and is made again");
             context.watch.note(&note);

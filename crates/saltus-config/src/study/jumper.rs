@@ -32,6 +32,9 @@ pub struct JumperTable {
 }
 
 impl JumperTable {
+    /// Most people, as the physics has it.
+    pub const MOST: usize = 400;
+
     pub(super) fn paper() -> Self {
         Self {
             x: 7.0,

@@ -42,9 +42,10 @@ pub struct Study {
     /// A simply supported rectangular plate, its edges held in their plane.
     #[garde(dive)]
     pub plate: PlateTable,
-    /// The people: none, one or many, each written as its own `[[jumper]]`.
+    /// The people: none, one or many, up to 400, each written as its own `[[jumper]]`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    #[garde(dive)]
+    #[garde(length(max = JumperTable::MOST), dive)]
+    #[schemars(length(max = JumperTable::MOST))]
     pub jumper: Vec<JumperTable>,
     /// When feet leave the floor and come back.
     #[garde(dive)]

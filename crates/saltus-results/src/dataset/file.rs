@@ -22,8 +22,8 @@ const SMALL: usize = 4096;
 const CHUNK: usize = 1 << 20;
 /// Effort of deflate; more costs time and saves little on floating-point numbers.
 const LEVEL: u32 = 4;
-/// Texts up to this length are written as characters, which the oldest readers understand.
-const SHORT_TEXT: usize = 8192;
+/// Texts up to this length are written as characters. An HDF5 message holds 64 KiB, with a name and a type before it.
+const SHORT_TEXT: usize = 60_000;
 
 /// The file of a dataset whose parts fit. Arrays move over one by one, so that none is held twice for long.
 pub(super) fn encode(dataset: Dataset) -> Result<Vec<u8>, ResultsError> {
@@ -308,10 +308,11 @@ fn numbers<T: H5WriteElement>(name: &str, values: &[T]) -> AttributeBuilder {
     )
 }
 
-/// Short plain text as characters; long text, and letters beyond ASCII, as a string.
+/// Text as characters (NC_CHAR), in UTF-8 where letters are beyond ASCII: one type for all attributes, and the only one
+/// that readers by C, Fortran, Ferret and older MATLAB know. Only what does not fit becomes a string (NC_STRING).
 fn text(name: &str, content: &str) -> Result<AttributeBuilder, Error> {
     let content = printable(content);
-    if content.is_ascii() && content.len() <= SHORT_TEXT {
+    if content.len() <= SHORT_TEXT {
         Ok(AttributeBuilder::fixed_string(name, content))
     } else {
         AttributeBuilder::vlen_strings(name, &[content])

@@ -2,9 +2,10 @@
 
 use super::MANIFEST;
 use super::piece::FORMAT;
-use crate::ResultsError;
+use crate::shown::printable;
+use crate::{ResultsError, ordinary};
+use std::io;
 use std::path::Path;
-use std::{fs, io};
 
 /// Names and values that say to which work the pieces in `dir` belong, as given at its first opening.
 ///
@@ -23,7 +24,7 @@ pub fn work_in(dir: &Path) -> Result<Vec<(String, String)>, ResultsError> {
 
 pub(super) fn read_manifest(dir: &Path) -> Result<Vec<u8>, ResultsError> {
     let path = dir.join(MANIFEST);
-    fs::read(&path).map_err(|error| match error.kind() {
+    ordinary::read(&path, ordinary::TEXT).map_err(|error| match error.kind() {
         io::ErrorKind::NotFound => ResultsError::AbsentPieces {
             path: dir.to_path_buf(),
             manifest: MANIFEST,
@@ -68,7 +69,9 @@ pub(super) fn compare(manifest: &[u8], wanted: &[(&str, &str)]) -> Result<(), St
     let theirs: Vec<(&str, &str)> = entries(&found).collect();
     let value = |list: &[(&str, &str)], name: &str| {
         let entry = list.iter().find(|entry| entry.0 == name);
-        entry.map_or("absent".to_owned(), |entry| format!("`{}`", entry.1))
+        entry.map_or("absent".to_owned(), |entry| {
+            format!("`{}`", printable(entry.1))
+        })
     };
     let mut names: Vec<&str> = wanted.iter().map(|entry| entry.0).collect();
     names.extend(
@@ -81,7 +84,9 @@ pub(super) fn compare(manifest: &[u8], wanted: &[(&str, &str)]) -> Result<(), St
         .into_iter()
         .map(|name| (name, value(&theirs, name), value(wanted, name)))
         .filter(|(_, theirs, wanted)| theirs != wanted)
-        .map(|(name, theirs, wanted)| format!("{name} is {theirs} there and {wanted} here"))
+        .map(|(name, theirs, wanted)| {
+            format!("{} is {theirs} there and {wanted} here", printable(name))
+        })
         .collect();
     if !differences.is_empty() {
         Err(differences.join(", "))

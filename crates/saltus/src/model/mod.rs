@@ -271,9 +271,8 @@ impl Setup {
             self.gravity,
             "a positive number of m/s^2 is needed",
         )?;
+        Jumper::check_all(&self.jumpers, &self.plate)?;
         for (index, jumper) in self.jumpers.iter().enumerate() {
-            jumper.check(index)?;
-            jumper.check_position(index, &self.plate)?;
             if jumper.damping_ratio == 0.0 && self.contact != ContactLaw::ReactionForce {
                 return Err(ModelError::Undamped {
                     index,

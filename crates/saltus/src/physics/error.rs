@@ -59,6 +59,15 @@ pub enum PhysicsError {
         /// Largest fraction of the load for which an equilibrium was found (-).
         reached: f64,
     },
+    /// More people than one plate is computed with.
+    #[error("jumper: {count} were given, at most {most} are possible", most = super::Jumper::MOST)]
+    TooManyJumpers {
+        /// How many were given.
+        count: usize,
+    },
+    /// Stopped from outside.
+    #[error("interrupted")]
+    Interrupted,
     /// A linear-algebra step that failed on this input.
     #[error("the {what} could not be computed: {reason}")]
     Algebra {

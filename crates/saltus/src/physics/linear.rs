@@ -2,6 +2,7 @@
 
 use super::{Jumper, PhysicsError, Plate, algebra, in_plane};
 use std::f64::consts::TAU;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Undamped linear modes of the plate with every jumper in contact.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,14 +39,40 @@ impl Plate {
     /// # Errors
     /// Those of [`Plate::check`]; [`PhysicsError::Algebra`] if the eigenvalues cannot be computed.
     pub fn in_plane_frequencies_hz(&self) -> Result<Vec<f64>, PhysicsError> {
+        self.in_plane_frequencies_hz_until(&AtomicBool::new(false))
+    }
+
+    /// As [`Self::in_plane_frequencies_hz`] until `stop` is raised: those of thousands of terms take seconds.
+    ///
+    /// Terms of different symmetry do not feel each other, so K falls into blocks, and each is solved by itself: four
+    /// for a complete set of [`InPlaneBasis::Fixed`](super::InPlaneBasis::Fixed), many of a pair for the other one.
+    /// `stop` is looked at between blocks.
+    ///
+    /// # Errors
+    /// As [`Self::in_plane_frequencies_hz`]; [`PhysicsError::Interrupted`].
+    pub fn in_plane_frequencies_hz_until(
+        &self,
+        stop: &AtomicBool,
+    ) -> Result<Vec<f64>, PhysicsError> {
         self.check()?;
         let what = "in-plane frequencies";
         let mass = in_plane::in_plane_mass(self);
-        let squares = algebra::eigenvalues(
-            what,
-            mass.len(),
-            &mass_scaled(in_plane::membrane(self), &mass),
-        )?;
+        let size = mass.len();
+        let stiffness = mass_scaled(in_plane::membrane(self), &mass);
+        let mut squares = Vec::with_capacity(size);
+        for block in blocks(size, &stiffness) {
+            if stop.load(Ordering::Relaxed) {
+                return Err(PhysicsError::Interrupted);
+            }
+            let entry = |&row: &usize| block.iter().map(move |col| row * size + col);
+            let entries: Vec<f64> = block
+                .iter()
+                .flat_map(entry)
+                .map(|at| stiffness[at])
+                .collect();
+            squares.extend(algebra::eigenvalues(what, block.len(), &entries)?);
+        }
+        squares.sort_by(f64::total_cmp);
         frequencies(what, squares)
     }
 
@@ -59,14 +86,10 @@ impl Plate {
     /// each other and the plate rests.
     ///
     /// # Errors
-    /// Those of [`Plate::check`], [`Jumper::check`] and [`Jumper::check_position`];
-    /// [`PhysicsError::Algebra`] if the eigenvalues cannot be computed.
+    /// Those of [`Plate::check`] and [`Jumper::check_all`]; [`PhysicsError::Algebra`] if the eigenvalues cannot be computed.
     pub fn occupied(&self, jumpers: &[Jumper]) -> Result<OccupiedModes, PhysicsError> {
         self.check()?;
-        for (index, jumper) in jumpers.iter().enumerate() {
-            jumper.check(index)?;
-            jumper.check_position(index, self)?;
-        }
+        Jumper::check_all(jumpers, self)?;
         let transverse = self.modes.w.len();
         let size = transverse + jumpers.len();
         let mut stiffness = vec![0.0; size * size];
@@ -104,6 +127,31 @@ impl Plate {
     }
 }
 
+/// Which rows of a symmetric `size` x `size` matrix hang together by entries other than 0, in ascending order.
+fn blocks(size: usize, a: &[f64]) -> Vec<Vec<usize>> {
+    let mut seen = vec![false; size];
+    let mut blocks = Vec::new();
+    for first in 0..size {
+        if std::mem::replace(&mut seen[first], true) {
+            continue;
+        }
+        let mut block = vec![first];
+        let mut next = 0;
+        while let Some(&row) = block.get(next) {
+            let entries = a[row * size..][..size].iter().zip(&mut seen).enumerate();
+            for (col, (&entry, seen)) in entries {
+                if entry != 0.0 && !std::mem::replace(seen, true) {
+                    block.push(col);
+                }
+            }
+            next += 1;
+        }
+        block.sort_unstable();
+        blocks.push(block);
+    }
+    blocks
+}
+
 /// M^-1/2 A M^-1/2 for a row-major A and a diagonal M.
 fn mass_scaled(mut a: Vec<f64>, mass: &[f64]) -> Vec<f64> {
     let size = mass.len();
@@ -139,4 +187,49 @@ fn frequencies(what: &'static str, squares: Vec<f64>) -> Result<Vec<f64>, Physic
         }
     };
     squares.into_iter().map(hz).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{InPlaneBasis, ModeSet, PhysicsError, Plate, algebra, in_plane};
+    use super::{blocks, frequencies, mass_scaled};
+    use std::sync::atomic::AtomicBool;
+
+    fn plate(basis: InPlaneBasis, terms: u32) -> Plate {
+        Plate {
+            modes: ModeSet::complete(terms, terms, basis),
+            basis,
+            ..Plate::dias_del_prado()
+        }
+    }
+
+    #[test]
+    fn in_plane_frequencies_of_the_blocks_are_those_of_the_whole() {
+        for (basis, largest) in [(InPlaneBasis::Fixed, 18), (InPlaneBasis::ShearFree, 2)] {
+            let plate = plate(basis, 3);
+            let mass = in_plane::in_plane_mass(&plate);
+            let stiffness = mass_scaled(in_plane::membrane(&plate), &mass);
+            let blocks = blocks(mass.len(), &stiffness);
+            let mut all: Vec<usize> = blocks.concat();
+            all.sort_unstable();
+            assert_eq!(all, (0..mass.len()).collect::<Vec<_>>());
+            // u(m, n) feels v(m', n') if m + m' and n + n' are odd: 9 + 9 of 72 terms. Without shear on the edges one
+            // of each.
+            assert_eq!(blocks.iter().map(Vec::len).max(), Some(largest));
+            let whole = algebra::eigenvalues("test", mass.len(), &stiffness).unwrap();
+            let whole = frequencies("test", whole).unwrap();
+            let found = plate.in_plane_frequencies_hz().unwrap();
+            for (found, whole) in found.iter().zip(&whole) {
+                // rounding of a matrix of 72 rows with entries that differ by 1e3
+                assert!((found / whole - 1.0).abs() < 1e-12, "{found} {whole}");
+            }
+        }
+    }
+
+    #[test]
+    fn in_plane_frequencies_stop_when_asked() {
+        let stop = AtomicBool::new(true);
+        let stopped = plate(InPlaneBasis::Fixed, 3).in_plane_frequencies_hz_until(&stop);
+        assert_eq!(stopped, Err(PhysicsError::Interrupted));
+    }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 
-use saltus_hybrid::{IntegrateError, Options};
+use saltus_hybrid::{IntegrateError, Options, on_threads};
 use saltus_orbits::ExponentError;
 
 use crate::model::ModelError;
@@ -33,10 +33,8 @@ pub(crate) fn in_parallel<I: Sync, O: Send>(
     threads: usize,
     f: impl Fn(&I) -> O + Sync,
 ) -> Vec<O> {
-    let available = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let threads = if threads == 0 { available() } else { threads }.clamp(1, items.len().max(1));
     let next = AtomicUsize::new(0);
-    let work = || {
+    let work = |_| {
         let take = || {
             let index = next.fetch_add(1, Ordering::Relaxed);
             items.get(index).map(|item| (index, item))
@@ -45,18 +43,8 @@ pub(crate) fn in_parallel<I: Sync, O: Send>(
             .map(|(index, item)| (index, f(item)))
             .collect::<Vec<_>>()
     };
-    let mut out: Vec<(usize, O)> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
-        let own = work();
-        let join = |worker: std::thread::ScopedJoinHandle<'_, _>| {
-            worker
-                .join()
-                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-        };
-        own.into_iter()
-            .chain(workers.into_iter().flat_map(join))
-            .collect()
-    });
+    let found = on_threads(threads, items.len(), work);
+    let mut out: Vec<(usize, O)> = found.into_iter().flatten().collect();
     out.sort_by_key(|(index, _)| *index);
     out.into_iter().map(|(_, value)| value).collect()
 }
