@@ -83,8 +83,10 @@ def modes_array(name: str, value: ArrayLike, counts: tuple[int, ...]) -> NDArray
 
 
 def whole(name: str, value: SupportsIndex, least: int, most: int | None = None) -> int:
-    """A whole number from `least` to `most`."""
+    """A whole number from `least` to `most`; a truth value is none."""
     try:
+        if isinstance(value, bool):
+            raise TypeError
         number = operator.index(value)
     except TypeError:
         raise TypeError(f"{name} is {value!r}: a whole number is needed") from None
