@@ -161,6 +161,8 @@ class TestDefinition:
             unit.choose(other=1.0)
         with pytest.raises(DefinitionError, match="no modes"):
             Unit("a", "a")
+        with pytest.raises(DefinitionError, match=r"\[x, x\]: each state is reset once"):
+            unit.transition("only", "only", falling=x, reset=[(x, 1.0), (x, 2.0)])
         with pytest.raises(DefinitionError, match=r"shape \(2,\) for one of shape \(\)"):
             unit.transition("only", "only", falling=x, reset={v: [1.0, 2.0]})
 
@@ -262,11 +264,34 @@ class TestMembers:
         refused(TypeError, r"periods is 1\.5", [0, 0], 1.5)
         refused(ValueError, "samples_per_period is 0", [0, 0], 1, samples_per_period=0)
         refused(ValueError, "tolerance = 1", [0, 0], 1, method=Taylor(tolerance=1.0))
+        refused(TypeError, "tolerance holds strings", [0, 0], 1, method=Taylor(tolerance="x"))  # type: ignore[arg-type]
+        refused(TypeError, "tolerance holds booleans", [0, 0], 1, method=Taylor(tolerance=True))
+        refused(TypeError, "switches is 'yes': True or False", [0, 0], 1, switches="yes")
+        refused(TypeError, r"parameters is \[1\]: a mapping", [0, 0], 1, parameters=[1])
         refused(TypeError, r"method is 'rk4'", [0, 0], 1, method="rk4")
         refused(ValueError, "instructions is 'fast'", [0, 0], 1, method=Taylor(instructions="fast"))  # type: ignore[arg-type]
         bad = {"f": 1.0, "omega": [1.0, -1.0]}
         refused(DefinitionError, r"member 1: the forcing frequency is -1", [0, 0], 1, parameters=bad)
         refused(MemoryError, "keep fewer", [0, 0], 2**50)
+
+    def test_questions_about_what_is_no_system_are_refused(self, duffing: System) -> None:
+        none: Any = "duffing"
+        for ask in (
+            lambda: integrate(none, [0.0, 0.0], 1),
+            lambda: lyapunov(none, [0.0, 0.0], 1),
+            lambda: find_orbit(none, [0.0, 0.0]),
+        ):
+            with pytest.raises(TypeError, match="system is 'duffing': a System is needed"):
+                ask()
+        values = {"f": 1.0, "omega": 1.0}
+        for wrong, message in (
+            ({"period": 2**70}, f"period is {2**70}: 1 to"),
+            ({"iterations": 2**70}, f"iterations is {2**70}: 1 to"),
+            ({"tolerance": -1.0}, r"tolerance is -1\.0: one positive number"),
+            ({"tolerance": [1e-9, 1e-9]}, "tolerance is .*: one positive number"),
+        ):
+            with pytest.raises(ValueError, match=message):
+                find_orbit(duffing, [0.0, 0.0], parameters=values, **wrong)
 
     def test_a_coefficient_that_is_not_finite_names_the_parameters(self) -> None:
         (x,), (p,) = states("x"), parameters("p")

@@ -328,13 +328,13 @@ fn an_override_too_long_for_any_integer_is_out_of_range() {
         for value in [
             "9223372036854775808",
             "-9223372036854775809",
-            "1".repeat(400).as_str(),
+            "1".repeat(40).as_str(),
         ] {
             let sets = [format!("{key}={value}")];
             let error = parse("paper.toml", &saltus_config::paper_template(), &sets).unwrap_err();
             let said = error.to_string();
             assert!(
-                said.contains(wanted) && !said.contains("text was given"),
+                said.contains(wanted) && !said.contains("was given"),
                 "{said}"
             );
         }

@@ -19,7 +19,6 @@ use std::borrow::Cow;
 use std::ffi::CString;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 
 /// What was found, with what was asked.
 #[pyclass(frozen, module = "saltus._native")]
@@ -149,10 +148,6 @@ fn asked(
         drop(Folder::stage(out, Some(&request), &study, context)?);
     }
     let mut found = request.ask(&study, context)?;
-    // what looks at no flag may come to its end after the wait for it
-    if context.stop.load(Ordering::SeqCst) {
-        return Err(Failure::Interrupted);
-    }
     if let Some(out) = out {
         let mut folder = Folder::stage(out, Some(&request), &study, context)?;
         found.store(&request, &mut folder)?;

@@ -152,13 +152,17 @@ class Unit:
         if (falling is None) == (rising is None):
             raise DefinitionError("a transition has one guard: give either falling or rising")
         guard = expression(falling if falling is not None else rising)  # type: ignore[arg-type]
+        resets = tuple((state, expression(value)) for state, value in pairs("reset", reset))
+        once = {state for state, _ in resets}
+        if len(once) < len(resets):
+            raise DefinitionError(f"reset: {[state for state, _ in resets]}: each state is reset once")
         return Transition(
             unit=self,
             source=source,
             target=target,
             guard=guard,
             direction="falling" if falling is not None else "rising",
-            resets=tuple((state, expression(value)) for state, value in pairs("reset", reset)),
+            resets=resets,
             vanishing=tuple(
                 (one, whole("a multiplicity", count, 1, 255))
                 for one, count in pairs("vanishing", vanishing)
