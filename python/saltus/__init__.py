@@ -13,6 +13,7 @@ Examples
 (50, 1)
 """
 
+from saltus import _interpreter as _interpreter  # isort: skip (before the native module)
 from saltus._commands import (
     attractors,
     basins,
@@ -28,6 +29,7 @@ from saltus._commands import (
 from saltus._errors import (
     ComputationError,
     DefinitionError,
+    FormulaError,
     InternalError,
     ResultError,
     SaltusError,
@@ -68,6 +70,7 @@ __all__ = [
     "Continue",
     "DefinitionError",
     "Figure",
+    "FormulaError",
     "Gravity",
     "InternalError",
     "Jumper",

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["modes_array", "reals", "whole"]
+__all__ = ["flag", "modes_array", "positive", "reals", "whole"]
 
 
 def reals(name: str, value: ArrayLike, trailing: Iterable[int | str] = ()) -> NDArray[np.float64]:
@@ -83,8 +83,10 @@ def modes_array(name: str, value: ArrayLike, counts: tuple[int, ...]) -> NDArray
 
 
 def whole(name: str, value: SupportsIndex, least: int, most: int | None = None) -> int:
-    """A whole number from `least` to `most`."""
+    """A whole number from `least` to `most`; a truth value is none."""
     try:
+        if isinstance(value, bool):
+            raise TypeError
         number = operator.index(value)
     except TypeError:
         raise TypeError(f"{name} is {value!r}: a whole number is needed") from None
@@ -92,6 +94,21 @@ def whole(name: str, value: SupportsIndex, least: int, most: int | None = None) 
         right = f"at least {least}" if most is None else f"{least} to {most}"
         raise ValueError(f"{name} is {number}: {right} would do")
     return number
+
+
+def positive(name: str, value: ArrayLike) -> float:
+    """A positive number."""
+    number = reals(name, value)
+    if number.ndim > 0 or number <= 0.0:
+        raise ValueError(f"{name} is {value!r}: one positive number is needed")
+    return float(number)
+
+
+def flag(name: str, value: object) -> bool:
+    """True or False, of Python or NumPy."""
+    if not isinstance(value, bool | np.bool_):
+        raise TypeError(f"{name} is {value!r}: True or False is needed")
+    return bool(value)
 
 
 def _array(name: str, value: ArrayLike) -> NDArray[Any]:

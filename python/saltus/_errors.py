@@ -5,6 +5,7 @@ from __future__ import annotations
 __all__ = [
     "ComputationError",
     "DefinitionError",
+    "FormulaError",
     "InternalError",
     "ResultError",
     "SaltusError",
@@ -48,6 +49,10 @@ class StudyError(SaltusError, ValueError):
 
 class DefinitionError(SaltusError, ValueError):
     """A system of one's own that cannot be, or numbers that do not fit it."""
+
+
+class FormulaError(DefinitionError, TypeError):
+    """What was asked of an expression and is no formula; the message says what to write instead."""
 
 
 class ComputationError(SaltusError, ArithmeticError):

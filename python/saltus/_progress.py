@@ -31,7 +31,7 @@ Progress = bool | None | ProgressFunction
 def watched(progress: Progress) -> Iterator[ProgressFunction | None]:
     """Give the function to be called, and close what it shows in the end."""
     if progress is None:
-        progress = sys.stderr.isatty() or _in_notebook()
+        progress = _somebody_looks()
     if callable(progress):
         yield progress
     elif progress:
@@ -44,19 +44,52 @@ def watched(progress: Progress) -> Iterator[ProgressFunction | None]:
         yield None
 
 
+def _somebody_looks() -> bool:
+    """Whether the standard error output is a terminal or a notebook; a service may have none at all."""
+    try:
+        return sys.stderr.isatty() or _in_notebook()
+    except Exception:
+        return False
+
+
 def _in_notebook() -> bool:
     ipython = sys.modules.get("IPython")
     return ipython is not None and getattr(ipython.get_ipython(), "kernel", None) is not None
 
 
 class _Bar:
-    """A bar by tqdm, or one line that is rewritten where there is no tqdm."""
+    """A bar by tqdm, or one line that is rewritten where there is no tqdm.
+
+    A bar that cannot be drawn is no reason to fail: it is not drawn again.
+    """
 
     def __init__(self) -> None:
         self._bar: Any = None
         self._line = False
+        self._broken = False
 
     def __call__(self, what: str, done: int, total: int | None, /) -> None:
+        if not self._broken:
+            with self._at_most_broken():
+                self._draw(what, done, total)
+
+    def close(self) -> None:
+        """Take the bar away."""
+        with self._at_most_broken():
+            if self._bar is not None:
+                self._bar.close()
+            if self._line:
+                sys.stderr.write("\r\x1b[K")
+                sys.stderr.flush()
+
+    @contextmanager
+    def _at_most_broken(self) -> Iterator[None]:
+        try:
+            yield
+        except Exception:
+            self._broken = True
+
+    def _draw(self, what: str, done: int, total: int | None) -> None:
         tqdm = _tqdm()
         if tqdm is None:
             part = f"{done}" if not total else f"{100 * done // total} %"
@@ -67,14 +100,6 @@ class _Bar:
         if self._bar is None:
             self._bar = tqdm(desc=what, total=total, delay=DELAY, leave=False)
         self._bar.update(done - self._bar.n)
-
-    def close(self) -> None:
-        """Take the bar away."""
-        if self._bar is not None:
-            self._bar.close()
-        if self._line:
-            sys.stderr.write("\r\x1b[K")
-            sys.stderr.flush()
 
 
 def _tqdm() -> Any:

@@ -13,13 +13,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from saltus import _native
 from saltus.study import Study
 
 if TYPE_CHECKING:
     import pandas
     import xarray
-
-    from saltus import _native
 
 __all__ = ["Figure", "Result", "Table", "Variable"]
 
@@ -105,15 +104,16 @@ class Figure:
         return self._native.png(scale)
 
     def save(self, path: str | os.PathLike[str], scale: float = SCALE) -> None:
-        """Write the figure to a file that ends in ``.svg`` or ``.png``."""
+        """Write the figure to a file that ends in ``.svg`` or ``.png``, whole or not at all."""
         path = Path(path)
         match path.suffix.lower():
             case ".svg":
-                path.write_text(self.svg, encoding="utf-8")
+                content = self.svg.encode()
             case ".png":
-                path.write_bytes(self.png(scale))
+                content = self.png(scale)
             case other:
                 raise ValueError(f"path ends in {other!r}: .svg or .png is needed")
+        _native.write(path, content)
 
     def _repr_mimebundle_(
         self, include: object = None, exclude: object = None

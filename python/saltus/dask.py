@@ -12,19 +12,21 @@ from __future__ import annotations
 
 import json
 import os
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from saltus import _native
 from saltus._arguments import whole
+from saltus._errors import ComputationError, SaltusError
 from saltus._progress import Progress, watched
 from saltus._results import Result
 from saltus.study import StudyLike, as_study
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
-    from distributed import Client
+    from distributed import Client, Future
 
 __all__ = ["basins", "map", "sweep"]
 
@@ -59,6 +61,11 @@ def map(  # noqa: A001 (the word of the program)
     -------
     Result
         The same bits as :func:`saltus.map` gives.
+
+    Raises
+    ------
+    ComputationError
+        If the cluster loses the work, as with its scheduler. It can be asked again.
     """
     return _run({"command": "map"}, study, client, tasks, out, progress)
 
@@ -101,17 +108,20 @@ def _run(
     out: str | os.PathLike[str] | None,
     progress: Progress,
 ) -> Result:
-    from distributed import as_completed
-
     asked, about = json.dumps(request), as_study(study)._resolved[0]
     pieces = _native.pieces(asked, about)
-    shares = _shares(pieces, _tasks(client, tasks))
-    # what is pure may be taken from an earlier run: a broken piece must not
-    futures = [client.submit(_compute, asked, about, share, pure=False) for share in shares]
+    futures: list[Future[Any]] = []
     made: list[tuple[int, bytes]] = []
     try:
+        with _cluster():
+            if client.status == "closed":
+                raise OSError("its client is closed")
+            shares = _shares(pieces, _tasks(client, tasks))
+            # what is pure may be taken from an earlier run: a broken piece must not
+            made_there = (client.submit(_compute, asked, about, share, pure=False) for share in shares)
+            futures.extend(made_there)
         with watched(progress) as told:
-            for _, parts in as_completed(futures, with_results=True):
+            for parts in _completed(futures):
                 made += parts
                 if told is not None:
                     told("pieces", len(made), pieces)
@@ -119,8 +129,40 @@ def _run(
                 asked, about, out=None if out is None else Path(out), pieces=made, progress=told
             )
     finally:
-        client.cancel(futures)
+        # a cluster that is gone has nothing to cancel
+        with suppress(Exception):
+            client.cancel(futures)
     return Result(answer)
+
+
+def _completed(futures: Sequence[Future[Any]]) -> Iterator[list[tuple[int, bytes]]]:
+    """The pieces of each task, as they are made."""
+    from distributed import as_completed
+
+    with _cluster():
+        for _, parts in as_completed(futures, with_results=True):
+            # of a task that was cancelled, the reason
+            if isinstance(parts, BaseException):
+                raise parts
+            yield parts
+
+
+@contextmanager
+def _cluster() -> Iterator[None]:
+    """Say so if the cluster is lost; what saltus raises on a worker is raised as it is."""
+    from distributed import CancelledError
+    from distributed.scheduler import KilledWorker
+
+    try:
+        yield
+    except SaltusError:
+        raise
+    except (CancelledError, KilledWorker, OSError, TimeoutError) as reason:
+        why = " ".join(str(reason).split())
+        raise ComputationError(
+            f"the cluster lost the work ({why}): nothing is wrong with the study, and it can be asked "
+            "again with the client of a cluster that runs"
+        ) from reason
 
 
 def _tasks(client: Client, tasks: int | None) -> int:

@@ -115,8 +115,8 @@ class Study:
         return self._resolved[1]
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the study file that the program reads."""
-        Path(path).write_text(self.to_toml(), encoding="utf-8")
+        """Write the study file that the program reads, whole or not at all."""
+        _native.write(Path(path), self.to_toml().encode())
 
     @property
     def hash(self) -> str:
@@ -201,8 +201,11 @@ def _plain(key: str, value: Any) -> Any:
             if (given := getattr(value, field.name)) is not None
             for name in (field.name.rstrip("_"),)
         }
-    if isinstance(value, (str, bool, int)):
+    if isinstance(value, (str, bool)):
         return value
+    if isinstance(value, int):
+        # whole numbers of a study have 64 bits; what is larger is out of range as a number
+        return value if -(2**63) <= value < 2**63 else _plain(key, _real(value))
     if isinstance(value, float):
         # JSON has no such numbers; as words they are refused with their key
         return value if math.isfinite(value) else str(value)
@@ -212,6 +215,13 @@ def _plain(key: str, value: Any) -> Any:
     if array.dtype.kind not in "biufUS":
         raise TypeError(f"{key} = {value!r}: a number, a word, a table or a list of these is needed")
     return _plain(key, array.tolist())
+
+
+def _real(value: int) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
 
 
 def _numeric(value: Sequence[Any]) -> bool:
@@ -226,7 +236,7 @@ def _overrides(changes: Mapping[str, object] | None) -> list[str]:
 def _toml(key: str, value: object) -> str:
     plain = _plain(key, value)
     # but for tables JSON is TOML; a word for a number that is not finite is none in quotes
-    if isinstance(value, (float, np.floating)) and isinstance(plain, str):
+    if isinstance(value, (float, np.floating, int)) and isinstance(plain, str):
         return plain
     if isinstance(plain, dict):
         return "{" + ", ".join(f"{name} = {_toml(name, item)}" for name, item in plain.items()) + "}"

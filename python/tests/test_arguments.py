@@ -116,6 +116,9 @@ def test_whole_numbers_have_a_range() -> None:
     assert whole("n", np.int32(4), 1) == 4
     with pytest.raises(TypeError, match=r"n is 1\.5: a whole number"):
         whole("n", 1.5, 1)  # type: ignore[arg-type]
+    for truth in (True, np.True_):
+        with pytest.raises(TypeError, match=r"n is (np\.)?True_?: a whole number is needed"):
+            whole("n", truth, 1)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="n is -1: at least 0"):
         whole("n", -1, 0)
     with pytest.raises(ValueError, match="n is 9: 0 to 8"):

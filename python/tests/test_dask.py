@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +13,7 @@ import pytest
 
 import saltus
 import saltus.dask
-from saltus import ResultError, Study, _native
+from saltus import ComputationError, ResultError, Study, _native
 
 distributed = pytest.importorskip("distributed")
 
@@ -25,6 +27,18 @@ pytestmark = [
     pytest.mark.filterwarnings("default::UserWarning"),
     pytest.mark.filterwarnings("default::pytest.PytestUnraisableExceptionWarning"),
 ]
+
+
+#: A cluster in one process, until it is killed or its input ends.
+SCHEDULER = """
+import sys
+from distributed import LocalCluster
+with LocalCluster(
+    n_workers=1, threads_per_worker=1, processes=False, protocol="tcp://", dashboard_address=None
+) as cluster:
+    print(cluster.scheduler.address, flush=True)
+    sys.stdin.read()
+"""
 
 
 @pytest.fixture(scope="module")
@@ -86,6 +100,20 @@ def test_basins_and_sweeps_too(client: Any, study: Study) -> None:
 def test_states_that_are_carried_on_are_no_work_for_many(client: Any, study: Study) -> None:
     with pytest.raises(saltus.StudyError, match=r"sweep\.direction"):
         saltus.dask.sweep(study.set({"sweep.direction": "up"}), client=client)
+
+
+def test_a_cluster_that_is_lost_is_told(study: Study) -> None:
+    larger = study.set({"map.x.count": 200, "map.y.count": 200})
+    run = [sys.executable, "-c", SCHEDULER]
+    with subprocess.Popen(run, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as cluster:
+        assert cluster.stdout is not None
+        address = cluster.stdout.readline().strip()
+        with distributed.Client(address, timeout=30) as client:
+            told = r"the cluster lost the work .*it can be asked again"
+            with pytest.raises(ComputationError, match=told):
+                saltus.dask.map(larger, client=client, tasks=400, progress=lambda *_: cluster.kill())
+    with pytest.raises(ComputationError, match="its client is closed"):
+        saltus.dask.map(study, client=client)
 
 
 def test_a_broken_piece_is_refused_by_its_number(study: Study) -> None:

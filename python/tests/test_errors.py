@@ -37,6 +37,7 @@ def test_a_study_error_names_the_line() -> None:
     [
         saltus.StudyError("no such key", "jumper.0.mas", "did you mean mass?", 3),
         saltus.DefinitionError("no"),
+        saltus.FormulaError("no"),
         saltus.ComputationError("no"),
         saltus.ResultError("no"),
         saltus.InternalError("no"),

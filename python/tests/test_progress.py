@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import sys
 
 import pytest
@@ -40,3 +41,46 @@ def test_without_tqdm_one_line_is_rewritten(
     with watched(True) as show:
         _native.count(1000, progress=show)
     assert capsys.readouterr().err == "\rcounting: 100 %\r\x1b[K"
+
+
+class Gone(io.StringIO):
+    """A terminal that went away."""
+
+    def isatty(self) -> bool:
+        return True
+
+    def write(self, text: str) -> int:
+        raise OSError("no such device")
+
+
+class Asks(io.StringIO):
+    """What does not know whether it is a terminal."""
+
+    def isatty(self) -> bool:
+        raise ValueError("I/O operation on closed file")
+
+
+@pytest.mark.parametrize(
+    "stderr", [None, object(), Gone(), Asks()], ids=["none", "odd", "gone", "closed"]
+)
+@pytest.mark.parametrize("progress", [None, True])
+@pytest.mark.parametrize("tqdm", [True, False], ids=["tqdm", "line"])
+def test_a_bar_that_cannot_be_drawn_is_no_reason_to_fail(
+    stderr: object, progress: bool | None, tqdm: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "stderr", stderr)
+    if not tqdm:
+        monkeypatch.setitem(sys.modules, "tqdm.auto", None)
+    with watched(progress) as show:
+        assert _native.count(1000, progress=show) == 1000
+        if show is not None:
+            show("counting", 7, None)
+
+
+def test_an_interrupt_while_a_bar_is_drawn_is_not_swallowed(monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted() -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(_progress, "_tqdm", interrupted)
+    with pytest.raises(KeyboardInterrupt), watched(True) as show:
+        _native.count(1000, progress=show)

@@ -21,9 +21,16 @@ from saltus.systems import System, integrate
 ENDLESS = 2**63
 
 
-def run_program(text: str, timeout: float = 60.0) -> subprocess.CompletedProcess[str]:
+def run_program(text: str, **environment: str) -> subprocess.CompletedProcess[str]:
     program = [sys.executable, "-c", textwrap.dedent(text)]
-    return subprocess.run(program, capture_output=True, text=True, timeout=timeout, check=False)
+    return subprocess.run(
+        program,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+        env={**os.environ, **environment},
+    )
 
 
 def test_an_interrupt_ends_the_work_and_is_raised() -> None:
@@ -70,6 +77,95 @@ def test_progress_tells_what_how_much_and_of_how_much() -> None:
 def test_a_panic_is_an_exception_that_asks_to_be_reported() -> None:
     with pytest.raises(InternalError, match=r"the count was to panic.*please report"):
         _native.count(10, panics=True)
+
+
+def test_work_that_looks_at_no_flag_is_left_behind() -> None:
+    # a million seconds of counting, and a pipe that nobody writes to
+    found = run_program("""
+        import os, signal, sys, tempfile, threading
+        import saltus
+        from saltus import _native
+        def interrupt(*told):
+            signal.raise_signal(signal.SIGINT)
+        try:
+            _native.count(2**63, stops=False, progress=interrupt)
+        except KeyboardInterrupt:
+            print("interrupted")
+        pipe = os.path.join(tempfile.mkdtemp(), "study.toml")
+        os.mkfifo(pipe)
+        main = threading.main_thread().ident
+        threading.Timer(0.2, lambda: signal.pthread_kill(main, signal.SIGINT)).start()
+        try:
+            saltus.Study.load(pipe)
+        except KeyboardInterrupt:
+            print("interrupted")
+        except saltus.SaltusError:
+            # it may be refused as what is no file
+            print("interrupted")
+            import time
+            try:
+                time.sleep(10)
+            except KeyboardInterrupt:
+                pass
+    """)
+    assert (found.stdout.split(), found.stderr, found.returncode) == (["interrupted"] * 2, "", 0)
+
+
+def test_a_daemon_thread_whose_work_looks_at_no_flag_does_not_hold_up_the_end() -> None:
+    found = run_program("""
+        import threading
+        from saltus import _native
+        counts = threading.Event()
+        def count():
+            _native.count(2**63, stops=False, progress=lambda *told: counts.set())
+        threading.Thread(target=count, daemon=True).start()
+        counts.wait()
+        print("ends")
+    """)
+    assert (found.stdout, found.stderr, found.returncode) == ("ends\n", "", 0)
+
+
+def test_a_thread_that_cannot_be_started_is_an_error_like_others() -> None:
+    # no address space holds a stack of 100 TB
+    found = run_program(
+        """
+        import saltus
+        from saltus.systems import System, integrate, find_orbit, lyapunov, states
+        study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+        (x,) = states("x")
+        system = System([x], [-x], interval=1.0)
+        for ask in (
+            lambda: saltus.simulate(study),
+            lambda: saltus.sweep(study, threads=4),
+            lambda: integrate(system, [1.0], 1),
+            lambda: find_orbit(system, [1.0]),
+            lambda: lyapunov(system, [1.0], 1),
+            lambda: str(study),
+        ):
+            try:
+                ask()
+            except saltus.ComputationError as error:
+                print(str(error)[:25])
+        """,
+        RUST_MIN_STACK="99999999999999",
+    )
+    assert found.stdout.splitlines() == ["no thread can be started "] * 6, found.stderr
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() != 0, reason="needs another user")
+def test_a_user_who_may_have_no_more_threads_gets_an_answer_or_an_error() -> None:
+    found = run_program("""
+        import os, resource
+        import saltus
+        study = saltus.Study.paper().set({"plate.inertia": "condensed", "simulate.periods": 3})
+        os.setuid(54321)
+        resource.setrlimit(resource.RLIMIT_NPROC, (1, 1))
+        try:
+            print(saltus.simulate(study)["z"].shape)
+        except Exception as error:
+            print(type(error).__name__)
+    """)
+    assert found.stdout in ("(3, 1)\n", "ComputationError\n"), found.stderr
 
 
 def test_other_threads_go_on_while_one_computes() -> None:
@@ -175,3 +271,35 @@ def test_nothing_is_begun_when_the_program_has_ended() -> None:
         from saltus import _native
     """)
     assert "begins nothing more" in found.stdout
+
+
+SUBINTERPRETER = """
+    import importlib, warnings
+    warnings.simplefilter("ignore")
+    try:
+        import _interpreters as interpreters
+        run = lambda text: interpreters.run_string(other, text)
+    except ImportError:
+        import _xxsubinterpreters as interpreters
+        run = lambda text: interpreters.run_string(other, text)
+    {first}
+    other = interpreters.create()
+    run({inside!r})
+    interpreters.destroy(other)
+    import saltus
+    study = saltus.Study.paper().set({{"plate.inertia": "condensed", "simulate.periods": 3}})
+    print(saltus.simulate(study)["z"].shape)
+"""
+
+
+@pytest.mark.parametrize("first", ["import saltus", ""], ids=["main first", "subinterpreter first"])
+def test_a_subinterpreter_that_ends_does_not_end_the_work_of_the_main_one(first: str) -> None:
+    inside = """
+try:
+    import saltus
+except ImportError as error:
+    print(error)
+"""
+    found = run_program(SUBINTERPRETER.format(first=first, inside=inside))
+    told = "saltus works in the main interpreter of a process, not in a subinterpreter"
+    assert found.stdout.splitlines() == [told, "(3, 1)"], found.stderr

@@ -71,6 +71,13 @@ def test_the_program_comes_with_the_package() -> None:
         ({"plate.colour": "red"}, None, "colour"),
         ({"plate.inertia": "ful"}, "plate.inertia", "full"),
         ({"start.z": "high"}, "start.z", "a number"),
+        ({"jumper.mass": 2**63}, "jumper.0.mass", r"92233720368547\d+"),
+        ({"jumper.mass": np.uint64(2**64 - 1)}, "jumper.0.mass", r"1844674407370955\d+"),
+        ({"jumper.mass": -(10**40)}, "jumper.0.mass", r"-10{40}"),
+        ({"simulate.periods": 10**30}, "simulate.periods", "a whole number from 1"),
+        ({"simulate.periods": 10**400}, "simulate.periods", "a whole number from 1"),
+        ({"simulate.periods": True}, "simulate.periods", "a whole number from 1"),
+        ({"sweep.values": [0.1, 2**70]}, "sweep.values.1", r"11805916207174113\d+"),
     ],
 )
 def test_an_error_names_the_key_and_what_would_be_right(
@@ -81,6 +88,51 @@ def test_an_error_names_the_key_and_what_would_be_right(
     assert isinstance(refused.value, ValueError)
     if key is not None:
         assert refused.value.key == key
+
+
+def test_whole_numbers_that_are_too_large_are_refused_as_numbers() -> None:
+    for periods in (10**30, 10**400):
+        with pytest.raises(StudyError, match=r"simulate\.periods"):
+            saltus.simulate(small(), periods=periods)
+        with pytest.raises(StudyError, match=r"simulate\.periods"):
+            small(simulate=saltus.Simulate(periods=periods))
+    with pytest.raises(TypeError, match="periods is True: a whole number is needed"):
+        saltus.simulate(small(), periods=True)
+    with pytest.raises(TypeError, match="threads is True"):
+        saltus.simulate(small(), threads=True)
+
+
+def test_a_study_that_cannot_be_written_leaves_the_old_one(tmp_path: Path) -> None:
+    path = tmp_path / "study.toml"
+    small().save(path)
+    before = path.read_bytes()
+    # what a full disk does, and nothing but the new file is that long
+    found = subprocess.run(
+        [
+            sys.executable,
+            "-c",
+            "import resource, sys, signal, numpy as np, saltus\n"
+            "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
+            "study = saltus.Study.paper().set({'sweep.values': np.linspace(0.1, 0.5, 5000)})\n"
+            "figure = saltus.simulate(saltus.Study.paper(), periods=3).figures['portrait']\n"
+            "resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))\n"
+            "for name in ('study.toml', 'a.png', 'a.svg'):\n"
+            "    try:\n"
+            "        (study if name == 'study.toml' else figure).save(sys.argv[1] + '/' + name)\n"
+            "    except saltus.ResultError as error:\n"
+            "        print(isinstance(error, OSError), name in str(error))\n",
+            str(tmp_path),
+        ],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+    assert found.stdout.split() == ["True", "True"] * 3, found.stderr
+    assert path.read_bytes() == before
+    assert [one.name for one in tmp_path.iterdir()] == ["study.toml"]
+    with pytest.raises(saltus.ResultError, match="no-such-folder"):
+        small().save(tmp_path / "no-such-folder" / "study.toml")
 
 
 def test_fields_are_checked_when_a_study_is_made() -> None:

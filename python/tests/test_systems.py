@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import pickle
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 
-from saltus import ComputationError, DefinitionError
+from saltus import ComputationError, DefinitionError, _native
 from saltus.systems import (
     Forcing,
     RungeKutta4,
@@ -23,6 +23,7 @@ from saltus.systems import (
     state_array,
     states,
 )
+from saltus.systems._integrate import Options
 
 #: The tolerance is 1e-10 a step; a few hundred steps add up.
 CLOSE = 1e-8
@@ -125,9 +126,9 @@ class TestFormulas:
 
     def test_what_cannot_be_calculated_with_is_a_type_error(self) -> None:
         x: Any = states("x")[0]
-        for nonsense in (lambda: x + "1", lambda: x * 1j, lambda: x > 0, lambda: bool(x)):
+        for nonsense in ("1", None, 1j, object()):
             with pytest.raises(TypeError):
-                nonsense()
+                x + nonsense
 
 
 class TestDefinition:
@@ -160,6 +161,8 @@ class TestDefinition:
             unit.choose(other=1.0)
         with pytest.raises(DefinitionError, match="no modes"):
             Unit("a", "a")
+        with pytest.raises(DefinitionError, match=r"\[x, x\]: each state is reset once"):
+            unit.transition("only", "only", falling=x, reset=[(x, 1.0), (x, 2.0)])
         with pytest.raises(DefinitionError, match=r"shape \(2,\) for one of shape \(\)"):
             unit.transition("only", "only", falling=x, reset={v: [1.0, 2.0]})
 
@@ -168,6 +171,38 @@ class TestDefinition:
         values = {"A": 1.2, "e": 0.8}
         assert repr(again) == repr(ball)
         assert (rest(again, [3.0, 0.0], **values) == rest(ball, [3.0, 0.0], **values)).all()
+
+    def test_scales_are_positive_and_belong_to_states(self) -> None:
+        (unit,) = parameters("unit")
+        x, v = states("x", "v", scale=(1e-6, unit**2))
+        q = state_array("q", 2, scale=3.0)
+        (free,) = states("free")
+        system = System([x, v, q, free], [v, -x, -q, 0.0], interval=1.0)
+        assert system.parameters == {"unit": ()}
+        again = pickle.loads(pickle.dumps(system))
+        start = [1e-6, 0.0, 1.0, 2.0, 0.0]
+        values = {"unit": 1e-3}
+        assert (rest(again, start, **values) == rest(system, start, **values)).all()
+        with pytest.raises(DefinitionError, match=r"the scale of a state is NaN|is -?0"):
+            integrate(system, start, 1, parameters={"unit": 0.0})
+        for scale, message in (
+            (0.0, r"the scale of y is 0\.0: a positive number"),
+            (-1, r"the scale of y is -1\.0: a positive number"),
+            (np.inf, "inf cannot stand in a formula"),
+            (x, "the scale of y is x: it must not change with time"),
+            (
+                [1.0, 2.0, 3.0],
+                r"scale has the shape \(3,\): one number, or one for each of \['y', 'z'\]",
+            ),
+        ):
+            with pytest.raises(DefinitionError, match=message):
+                states("y", "z", scale=scale)
+
+    def test_a_system_sent_by_an_earlier_version_has_no_scales(self, ball: System) -> None:
+        definition = ball._definition
+        vars(definition).pop("scales")
+        assert definition.scales == ()
+        assert rest(pickle.loads(pickle.dumps(ball)), [3.0, 0.0], A=1.2, e=0.8).shape == (5, 2)
 
     def test_sums_may_be_long(self) -> None:
         # longer than Python's stack is deep
@@ -229,11 +264,34 @@ class TestMembers:
         refused(TypeError, r"periods is 1\.5", [0, 0], 1.5)
         refused(ValueError, "samples_per_period is 0", [0, 0], 1, samples_per_period=0)
         refused(ValueError, "tolerance = 1", [0, 0], 1, method=Taylor(tolerance=1.0))
+        refused(TypeError, "tolerance holds strings", [0, 0], 1, method=Taylor(tolerance="x"))  # type: ignore[arg-type]
+        refused(TypeError, "tolerance holds booleans", [0, 0], 1, method=Taylor(tolerance=True))
+        refused(TypeError, "switches is 'yes': True or False", [0, 0], 1, switches="yes")
+        refused(TypeError, r"parameters is \[1\]: a mapping", [0, 0], 1, parameters=[1])
         refused(TypeError, r"method is 'rk4'", [0, 0], 1, method="rk4")
         refused(ValueError, "instructions is 'fast'", [0, 0], 1, method=Taylor(instructions="fast"))  # type: ignore[arg-type]
         bad = {"f": 1.0, "omega": [1.0, -1.0]}
         refused(DefinitionError, r"member 1: the forcing frequency is -1", [0, 0], 1, parameters=bad)
         refused(MemoryError, "keep fewer", [0, 0], 2**50)
+
+    def test_questions_about_what_is_no_system_are_refused(self, duffing: System) -> None:
+        none: Any = "duffing"
+        for ask in (
+            lambda: integrate(none, [0.0, 0.0], 1),
+            lambda: lyapunov(none, [0.0, 0.0], 1),
+            lambda: find_orbit(none, [0.0, 0.0]),
+        ):
+            with pytest.raises(TypeError, match="system is 'duffing': a System is needed"):
+                ask()
+        values = {"f": 1.0, "omega": 1.0}
+        for wrong, message in (
+            ({"period": 2**70}, f"period is {2**70}: 1 to"),
+            ({"iterations": 2**70}, f"iterations is {2**70}: 1 to"),
+            ({"tolerance": -1.0}, r"tolerance is -1\.0: one positive number"),
+            ({"tolerance": [1e-9, 1e-9]}, "tolerance is .*: one positive number"),
+        ):
+            with pytest.raises(ValueError, match=message):
+                find_orbit(duffing, [0.0, 0.0], parameters=values, **wrong)
 
     def test_a_coefficient_that_is_not_finite_names_the_parameters(self) -> None:
         (x,), (p,) = states("x"), parameters("p")
@@ -405,3 +463,69 @@ class TestQuestions:
             progress=lambda *now: told.append(now),
         )
         assert told[-1] == ("integrating", 30, 30)
+
+
+class TestProgram:
+    """The native side is reached by altered pickles, too."""
+
+    RIGHT: ClassVar[dict[str, Any]] = {
+        "operations": [("state", [], 0.0), ("number", [], 1.0), ("add", [0, 1], 0.0)],
+        "parameters": 0,
+        "rates": [2],
+        "forced": False,
+        "clock": 1,
+        "units": [[[(0, 1.0, 0, [(0, 1)], [(0, 1)])]]],
+        "scales": [1],
+    }
+
+    @pytest.mark.parametrize(
+        "altered",
+        [
+            {"operations": [("add", [0, 0], 0.0)], "rates": [0], "clock": 0, "units": (), "scales": ()},
+            {"operations": [("state", [], 1.0), ("number", [], 1.0), ("add", [0, 1], 0.0)]},
+            {"operations": [("state", [], 0.5), ("number", [], 1.0), ("add", [0, 1], 0.0)]},
+            {"operations": [("state", [], -1.0), ("number", [], 1.0), ("add", [0, 1], 0.0)]},
+            {"operations": [("parameter", [], 0.0), ("number", [], 1.0), ("add", [0, 1], 0.0)]},
+            {"operations": [("forcing cos", [], 0.0), ("number", [], 1.0), ("add", [0, 1], 0.0)]},
+            {"operations": [("state", [], 0.0), ("number", [], 1.0), ("add", [0, 5], 0.0)]},
+            {"operations": [("state", [], 0.0), ("number", [], 1.0), ("add", [0, 2], 0.0)]},
+            {"operations": [("state", [], 0.0), ("number", [], 1.0), ("choice", [1, 1], 0.0)]},
+            {"operations": [("state", [], 0.0), ("number", [], 1.0), ("choice", [1], 1.0)]},
+            {"operations": [("state", [], 0.0), ("number", [], 1.0), ("tanh", [0], 0.0)]},
+            {"rates": []},
+            {"rates": [3]},
+            {"clock": 3},
+            {"scales": [3]},
+            {"scales": [1, 1]},
+            {"units": [[]]},
+            {"units": [[[]] * 257]},
+            {"units": [[[]]] * 257},
+            {"units": [[[(3, 1.0, 0, [], [])]]]},
+            {"units": [[[(0, 0.0, 0, [], [])]]]},
+            {"units": [[[(0, np.nan, 0, [], [])]]]},
+            {"units": [[[(0, 1.0, 1, [], [])]]]},
+            {"units": [[[(0, 1.0, 0, [(1, 0)], [])]]]},
+            {"units": [[[(0, 1.0, 0, [(0, 3)], [])]]]},
+            {"units": [[[(0, 1.0, 0, [], [(3, 1)])]]]},
+        ],
+        ids=str,
+    )
+    def test_what_names_something_that_is_not_there_is_no_program(self, altered: Any) -> None:
+        with pytest.raises(DefinitionError):
+            _native.Program(**{**self.RIGHT, **altered})
+
+    def test_rows_must_fit(self) -> None:
+        program = _native.Program(**self.RIGHT)
+        assert program.periods(np.empty((1, 0))) == [1.0]
+        with pytest.raises(DefinitionError):
+            program.periods(np.empty((1, 2)))
+        asked = {"parameters": np.empty((1, 0)), "starts": np.ones((1, 1))}
+        with pytest.raises(DefinitionError, match="member 0: a mode that its unit does not have"):
+            program.find_orbit(
+                **asked,
+                modes=np.ones((1, 1), np.uint8),
+                period=1,
+                tolerance=1e-9,
+                iterations=5,
+                settings=Options(Taylor(), 100, 1),
+            )

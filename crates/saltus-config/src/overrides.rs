@@ -63,11 +63,15 @@ fn apply_one(text: &str, tree: &mut Value, set_by: &SetBy) -> Result<Vec<String>
     .map_err(|reason| malformed(text, &reason).key_is(key.to_string()))
 }
 
-/// A TOML value; anything else is text, so that quotes need not survive the shell.
+/// A TOML value; anything else is text, so that quotes need not survive the shell. TOML's whole numbers have 64 bits:
+/// a larger one is a number all the same, so that its range is what is wrong with it.
 fn read_value(text: &str) -> Value {
     let text = text.trim();
-    text.parse()
-        .unwrap_or_else(|_| Value::String(text.to_owned()))
+    let digits = text.trim_start_matches(['+', '-']);
+    let whole = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    let number = || text.parse().ok().filter(|_| whole).map(Value::Float);
+    let other = || number().unwrap_or_else(|| Value::String(text.to_owned()));
+    text.parse().unwrap_or_else(|_| other())
 }
 
 fn settable(key: &Key, text: &str) -> Result<(), StudyError> {

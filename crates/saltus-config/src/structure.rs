@@ -5,6 +5,9 @@ use crate::key::{Key, index};
 use crate::schema::{Kind, Node, keys};
 use toml::Value;
 
+/// The least number that is too large for the whole numbers of TOML.
+const TWO_TO_63: f64 = 9_223_372_036_854_775_808.0;
+
 /// One thing that is wrong, before it is known where the key came from.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Fault {
@@ -114,6 +117,10 @@ pub(crate) fn check(node: Node, value: &Value, key: &Key, faults: &mut Faults) {
             check_list(node, items, value, key, faults);
         }
         (Kind::Number, Value::Float(x)) => check_range(node, *x, value, key, faults),
+        // a whole number beyond 64 bits
+        (Kind::Integer, Value::Float(x)) if x.is_finite() && x.abs() >= TWO_TO_63 => {
+            check_range(node, *x, value, key, faults);
+        }
         #[expect(
             clippy::cast_precision_loss,
             reason = "a bound is far below the integers that f64 cannot hold"

@@ -320,6 +320,28 @@ fn a_number_too_long_for_any_integer_is_shown_in_its_line() {
 }
 
 #[test]
+fn an_override_too_long_for_any_integer_is_out_of_range() {
+    for (key, wanted) in [
+        ("jumper.mass", "a number from"),
+        ("simulate.periods", "a whole number from"),
+    ] {
+        for value in [
+            "9223372036854775808",
+            "-9223372036854775809",
+            "1".repeat(40).as_str(),
+        ] {
+            let sets = [format!("{key}={value}")];
+            let error = parse("paper.toml", &saltus_config::paper_template(), &sets).unwrap_err();
+            let said = error.to_string();
+            assert!(
+                said.contains(wanted) && !said.contains("was given"),
+                "{said}"
+            );
+        }
+    }
+}
+
+#[test]
 fn every_missing_key_is_named_with_its_table() {
     for key in keys() {
         let sheet = Sheet::for_key(&key);

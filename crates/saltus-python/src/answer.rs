@@ -1,7 +1,7 @@
 //! Questions of a study file and what was found, as `saltus_commands` has them.
 
 use crate::error;
-use crate::running::{Board, Listener, attended};
+use crate::running::{Board, Listener, attended, sound};
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyUserWarning;
@@ -12,14 +12,21 @@ use saltus_commands::{
     Rows, Store, bibtex, citations,
 };
 use saltus_config::Study;
-use saltus_results::{Attribute, Column, Columns, Dataset, Figure as Drawing, Values, Variable};
+use saltus_results::{
+    Attribute, Column, Columns, Dataset, Figure as Drawing, Values, Variable, write_file_atomically,
+};
 use std::borrow::Cow;
 use std::ffi::CString;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// What was found, with what was asked.
 #[pyclass(frozen, module = "saltus._native")]
 pub(crate) struct Answer {
+    known: Arc<Known>,
+}
+
+struct Known {
     request: Request,
     study: Study,
     found: Box<dyn Answered>,
@@ -47,7 +54,7 @@ pub(crate) fn ask(
     progress: Listener,
 ) -> PyResult<Answer> {
     let (request, study) = question(request, study)?;
-    let board = Board::default();
+    let board: Arc<Board> = Arc::default();
     let keep = match pieces {
         Some(pieces) => Some(Keep {
             place: Place::Memory(pieces),
@@ -62,29 +69,32 @@ pub(crate) fn ask(
             },
         }),
     };
-    let answer = attended(py, &progress, &board, |stop| {
+    let watch = Arc::clone(&board);
+    let answer = attended(py, &progress, &board, move |stop| {
         let context = Context {
             threads,
             stop: stop.clone(),
-            watch: &board,
+            watch: &*watch,
             keep,
         };
-        asked(request, &study, out.as_deref(), &context)
+        asked(request, &study, out.as_deref(), &context).map_err(|failure| error::of(&failure))
     })?;
     for note in board.notes() {
         let note = CString::new(note).unwrap_or_default();
         PyErr::warn(py, &py.get_type::<PyUserWarning>(), &note, 2)?;
     }
-    answer.map_err(|failure| error::of(&failure))
+    Ok(answer)
 }
 
 /// How many pieces the work can be cut into.
 #[pyfunction]
 pub(crate) fn pieces(request: &str, study: &str) -> PyResult<u32> {
     let (request, study) = question(request, study)?;
-    request
-        .pieces(&study)
-        .map_err(|failure| error::of(&failure))
+    sound(|| {
+        request
+            .pieces(&study)
+            .map_err(|failure| error::of(&failure))
+    })
 }
 
 /// Makes pieces of the work, counted from 0.
@@ -99,27 +109,31 @@ pub(crate) fn compute(
     progress: Listener,
 ) -> PyResult<Vec<Piece>> {
     let (request, study) = question(request, study)?;
-    let board = Board::default();
-    let made = attended(py, &progress, &board, |stop| {
+    let board: Arc<Board> = Arc::default();
+    let watch = Arc::clone(&board);
+    attended(py, &progress, &board, move |stop| {
         let context = Context {
             threads,
             stop: stop.clone(),
-            watch: &board,
+            watch: &*watch,
             keep: None,
         };
-        request.compute(&study, &pieces, &context)
-    })?;
-    let made = made.map_err(|failure| error::of(&failure))?;
-    Ok(made
-        .into_iter()
-        .map(|(number, bytes)| (number, Cow::Owned(bytes)))
-        .collect())
+        let made = request.compute(&study, &pieces, &context);
+        let made = made.map_err(|failure| error::of(&failure))?;
+        Ok(made
+            .into_iter()
+            .map(|(number, bytes)| (number, Cow::Owned(bytes)))
+            .collect())
+    })
 }
 
 fn question(request: &str, study: &str) -> PyResult<(Request, Study)> {
-    let request: Request = serde_json::from_str(request).map_err(error::of_definition)?;
-    let study = Study::from_json(study, &[]).map_err(|problem| error::of_study(&problem, &[]))?;
-    Ok((request, study))
+    sound(|| {
+        let request: Request = serde_json::from_str(request).map_err(error::of_definition)?;
+        let study =
+            Study::from_json(study, &[]).map_err(|problem| error::of_study(&problem, &[]))?;
+        Ok((request, study))
+    })
 }
 
 fn asked(
@@ -142,10 +156,13 @@ fn asked(
         destination.store(out, found.as_ref())?;
         found.stored()?;
     }
-    Ok(Answer {
+    let known = Known {
         request,
         study,
         found,
+    };
+    Ok(Answer {
+        known: Arc::new(known),
     })
 }
 
@@ -154,76 +171,71 @@ impl Answer {
     /// The command.
     #[getter]
     fn command(&self) -> &'static str {
-        self.request.name()
+        self.known.request.name()
     }
 
     /// The study it is about, as JSON, TOML and hash.
     #[getter]
-    fn study(&self) -> (String, String, String) {
-        (
-            self.study.to_json(),
-            self.study.to_toml(),
-            self.study.hash(),
-        )
+    fn study(&self) -> PyResult<(String, String, String)> {
+        let study = &self.known.study;
+        sound(|| Ok((study.to_json(), study.to_toml(), study.hash())))
     }
 
     /// What it says to people.
-    fn summary(&self) -> String {
-        self.found.summary()
+    fn summary(&self) -> PyResult<String> {
+        sound(|| Ok(self.known.found.summary()))
     }
 
     /// The JSON document.
     fn document(&self, py: Python<'_>) -> PyResult<String> {
-        let mut text = Vec::new();
-        py.detach(|| self.found.document(&mut text))?;
-        String::from_utf8(text).map_err(error::of_computation)
+        sound(|| {
+            let mut text = Vec::new();
+            py.detach(|| self.known.found.document(&mut text))?;
+            String::from_utf8(text).map_err(error::of_computation)
+        })
     }
 
     /// The works that it rests on, as BibTeX.
-    fn cite(&self) -> String {
-        bibtex(&citations(&self.request, &self.study))
+    fn cite(&self) -> PyResult<String> {
+        sound(|| Ok(bibtex(&citations(&self.known.request, &self.known.study))))
     }
 
     /// Why it is not all that was asked for, if so.
-    fn shortfall(&self) -> Option<String> {
-        self.found.shortfall().map(|failure| failure.to_string())
+    fn shortfall(&self) -> PyResult<Option<String>> {
+        sound(|| {
+            Ok(self
+                .known
+                .found
+                .shortfall()
+                .map(|failure| failure.to_string()))
+        })
     }
 
     /// Everything but the document: tables, figures, datasets and texts, each a dict by name.
     fn parts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let mut memory = Memory::default();
-        py.detach(|| self.found.fill(&mut memory))
-            .map_err(|failure| error::of(&failure))?;
-        let (tables, figures) = (PyDict::new(py), PyDict::new(py));
-        let (datasets, texts) = (PyDict::new(py), PyDict::new(py));
-        for (name, columns) in memory.tables {
-            tables.set_item(name, table(py, columns)?)?;
-        }
-        for (name, drawing) in memory.figures {
-            figures.set_item(name, Figure { drawing })?;
-        }
-        for (name, data) in memory.datasets {
-            datasets.set_item(name, dataset(py, data)?)?;
-        }
-        for (name, text) in memory.texts {
-            texts.set_item(name, text)?;
-        }
-        PyTuple::new(py, [tables, figures, datasets, texts])
+        sound(|| {
+            let mut memory = Memory::default();
+            py.detach(|| self.known.found.fill(&mut memory))
+                .map_err(|failure| error::of(&failure))?;
+            memory.handed_over(py)
+        })
     }
 
     /// Writes the folder of results that the program writes.
     fn save(&self, py: Python<'_>, out: PathBuf) -> PyResult<()> {
-        let board = Board::default();
-        let saved = attended(py, &None, &board, |stop| {
+        let known = Arc::clone(&self.known);
+        attended(py, &None, &Arc::default(), move |stop| {
             let context = Context {
                 stop: stop.clone(),
                 ..Context::default()
             };
-            let mut folder = Folder::stage(&out, Some(&self.request), &self.study, &context)?;
-            self.found.store(&self.request, &mut folder)?;
-            folder.commit().map(drop)
-        })?;
-        saved.map_err(|failure| error::of(&failure))
+            let save = || {
+                let mut folder = Folder::stage(&out, Some(&known.request), &known.study, &context)?;
+                known.found.store(&known.request, &mut folder)?;
+                folder.commit().map(drop)
+            };
+            save().map_err(|failure| error::of(&failure))
+        })
     }
 }
 
@@ -236,14 +248,16 @@ pub(crate) struct Figure {
 #[pymethods]
 impl Figure {
     /// As SVG.
-    fn svg(&self, py: Python<'_>) -> String {
-        py.detach(|| self.drawing.svg())
+    fn svg(&self, py: Python<'_>) -> PyResult<String> {
+        sound(|| Ok(py.detach(|| self.drawing.svg())))
     }
 
     /// As PNG, with so many pixels per unit of the SVG.
     fn png(&self, py: Python<'_>, scale: f32) -> PyResult<Vec<u8>> {
-        py.detach(|| self.drawing.png(scale))
-            .map_err(|failure| error::of(&failure.into()))
+        sound(|| {
+            py.detach(|| self.drawing.png(scale))
+                .map_err(|failure| error::of(&failure.into()))
+        })
     }
 }
 
@@ -254,6 +268,26 @@ struct Memory {
     figures: Vec<(String, Drawing)>,
     datasets: Vec<(String, Dataset)>,
     texts: Vec<(String, Vec<u8>)>,
+}
+
+impl Memory {
+    fn handed_over(self, py: Python<'_>) -> PyResult<Bound<'_, PyTuple>> {
+        let (tables, figures) = (PyDict::new(py), PyDict::new(py));
+        let (datasets, texts) = (PyDict::new(py), PyDict::new(py));
+        for (name, columns) in self.tables {
+            tables.set_item(name, table(py, columns)?)?;
+        }
+        for (name, drawing) in self.figures {
+            figures.set_item(name, Figure { drawing })?;
+        }
+        for (name, data) in self.datasets {
+            datasets.set_item(name, dataset(py, data)?)?;
+        }
+        for (name, text) in self.texts {
+            texts.set_item(name, text)?;
+        }
+        PyTuple::new(py, [tables, figures, datasets, texts])
+    }
 }
 
 impl Store for Memory {
@@ -385,8 +419,17 @@ fn attributes<'py>(py: Python<'py>, list: &[(String, Attribute)]) -> PyResult<Bo
     Ok(attributes)
 }
 
+/// Writes a file, which keeps its old content until all of the new is on disk.
+#[pyfunction]
+pub(crate) fn write(py: Python<'_>, path: PathBuf, content: Vec<u8>) -> PyResult<()> {
+    sound(|| {
+        py.detach(|| write_file_atomically(&path, content))
+            .map_err(|failure| error::of(&failure.into()))
+    })
+}
+
 /// The program, with these arguments; gives its exit code.
 #[pyfunction]
-pub(crate) fn program(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> u8 {
-    py.detach(|| saltus_cli::main(arguments))
+pub(crate) fn program(py: Python<'_>, arguments: Vec<std::ffi::OsString>) -> PyResult<u8> {
+    sound(|| Ok(py.detach(|| saltus_cli::main(arguments))))
 }

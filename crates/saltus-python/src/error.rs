@@ -1,5 +1,7 @@
 //! What goes wrong in Rust, as the exceptions of `saltus._errors`.
 
+use std::any::Any;
+
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::import_exception;
 use pyo3::prelude::*;
@@ -71,4 +73,16 @@ pub(crate) fn of_definition(reason: impl ToString) -> PyErr {
 /// A question without an answer.
 pub(crate) fn of_computation(reason: impl ToString) -> PyErr {
     ComputationError::new_err((reason.to_string(),))
+}
+
+/// What a panic was about. Python's own exception for it is caught by nobody who catches `Exception`.
+pub(crate) fn broken(panic: &(dyn Any + Send)) -> PyErr {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    let said = text.or(panic.downcast_ref::<&str>().copied());
+    let text = format!(
+        "saltus broke down ({}). This is an error of the program, not of your input: please report it with what \
+         you called",
+        said.unwrap_or("no message")
+    );
+    InternalError::new_err((text,))
 }

@@ -1,16 +1,19 @@
 //! Results that were kept in folders: cited, and asked again.
 
 use crate::error;
-use crate::running::{Board, Listener, attended};
+use crate::running::{Board, Listener, aside, attended};
 use pyo3::prelude::*;
-use saltus_commands::{Answer, Context, Failure, Kept, bibtex};
+use saltus_commands::{Answer, Context, Kept, bibtex};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// The works that a result rests on, as BibTeX.
 #[pyfunction]
-pub(crate) fn cite(path: PathBuf) -> PyResult<String> {
-    let kept = Kept::open(&path).map_err(|failure| error::of(&failure))?;
-    Ok(bibtex(&kept.citations()))
+pub(crate) fn cite(py: Python<'_>, path: PathBuf) -> PyResult<String> {
+    aside(py, move || {
+        let kept = Kept::open(&path).map_err(|failure| error::of(&failure))?;
+        Ok(bibtex(&kept.citations()))
+    })
 }
 
 /// Computes a result again: whether it is the same to the bit, that in words, and the JSON document.
@@ -23,21 +26,21 @@ pub(crate) fn rerun(
     threads: usize,
     progress: Listener,
 ) -> PyResult<(bool, String, String)> {
-    let board = Board::default();
-    let rerun = attended(py, &progress, &board, |stop| {
+    let board: Arc<Board> = Arc::default();
+    let watch = Arc::clone(&board);
+    attended(py, &progress, &board, move |stop| {
         let context = Context {
             threads,
             stop: stop.clone(),
-            watch: &board,
+            watch: &*watch,
             keep: None,
         };
-        let rerun = Kept::open(&path)?.rerun(out.as_deref(), &context)?;
+        let rerun = Kept::open(&path).and_then(|kept| kept.rerun(out.as_deref(), &context));
+        let rerun = rerun.map_err(|failure| error::of(&failure))?;
         let mut document = Vec::new();
         // a vector takes everything
         let _ = rerun.document(&mut document);
-        Ok((rerun, document))
-    })?;
-    let (rerun, document) = rerun.map_err(|failure: Failure| error::of(&failure))?;
-    let document = String::from_utf8(document).map_err(error::of_computation)?;
-    Ok((rerun.identical, rerun.summary(), document))
+        let document = String::from_utf8(document).map_err(error::of_computation)?;
+        Ok((rerun.identical, rerun.summary(), document))
+    })
 }

@@ -15,7 +15,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use crate::answer::{Answer, Figure, ask, compute, pieces, program};
+    use crate::answer::{Answer, Figure, ask, compute, pieces, program, write};
     #[pymodule_export]
     use crate::kept::{cite, rerun};
     #[pymodule_export]
@@ -29,9 +29,6 @@ mod _native {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        module.add("__version__", env!("CARGO_PKG_VERSION"))?;
-        let at_exit = module.py().import("atexit")?;
-        at_exit.call_method1("register", (module.getattr("shut_down")?,))?;
-        Ok(())
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }

@@ -1,9 +1,11 @@
 //! Long work on a thread of its own while Python stays awake: signals, progress, panics, the end of the program.
 //!
-//! All threads are scoped, so a forked child finds nothing missing. The list of what is running is only locked
-//! by threads attached to Python; since a fork holds on to Python, the child never finds it locked.
+//! A thread owns all that it works on and never calls Python, so it can be left behind when it does not stop in
+//! time, and what a fork leaves out is only the work. The list of what is running is only locked by threads
+//! attached to Python; since a fork holds on to Python, the child never finds it locked.
 
-use std::any::Any;
+use std::io;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
@@ -15,13 +17,16 @@ use pyo3::exceptions::{PyRuntimeError, PySystemExit};
 use pyo3::prelude::*;
 use saltus_commands::{Stage, Watch};
 
-use crate::error::InternalError;
+use crate::error::{broken, of_computation};
 
 /// How often the calling thread looks for signals: a person does not notice.
 const TICK: Duration = Duration::from_millis(50);
 /// Ticks from one call of a progress function to the next: ten a second are enough for eyes.
 const TICKS_PER_REPORT: u32 = 2;
-/// How long the end of the program waits for work to stop. A step of any method takes far less.
+/// Ticks that work has to stop in, two seconds: a step of any method takes far less. What looks at no flag, such as
+/// the eigenvalues of a large matrix or a pipe that nobody writes to, is left behind then.
+const TICKS_TO_STOP: u32 = 40;
+/// How long the end of the program waits for work to stop.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Who wants to hear how far the work is: a callable taking what is done, how many, and of how many (or None).
@@ -77,63 +82,104 @@ pub(crate) struct Progress<'a> {
 ///
 /// # Errors
 /// As [`attended`].
-pub(crate) fn run<T: Send>(
+pub(crate) fn run<T: Send + 'static>(
     py: Python<'_>,
     progress: &Progress<'_>,
-    work: impl FnOnce(&AtomicBool, &AtomicU64) -> T + Send,
+    work: impl FnOnce(&AtomicBool, &AtomicU64) -> PyResult<T> + Send + 'static,
 ) -> PyResult<T> {
-    let board = Board::default();
+    let board: Arc<Board> = Arc::default();
     let done: Arc<AtomicU64> = Arc::default();
     board.begin(Stage {
         what: progress.what.to_owned(),
         total: progress.total,
         done: Arc::clone(&done),
     });
-    attended(py, &progress.call, &board, |stop| work(stop, &done))
+    attended(py, &progress.call, &board, move |stop| work(stop, &done))
 }
 
 /// Runs `work` on another thread with Python released. It gets a flag that says stop, at which it must look now
 /// and then.
 ///
 /// # Errors
-/// What a signal handler or the listener raises, such as KeyboardInterrupt, after the work has stopped;
-/// `InternalError` if the work panics; SystemExit if the program ends meanwhile.
-pub(crate) fn attended<T: Send>(
+/// What the work refuses with; what a signal handler or the listener raises, such as KeyboardInterrupt;
+/// `InternalError` if the work panics; `ComputationError` if there is no thread to be had; SystemExit if the
+/// program ends meanwhile.
+pub(crate) fn attended<T: Send + 'static>(
     py: Python<'_>,
     listener: &Listener,
-    board: &Board,
-    work: impl FnOnce(&Arc<AtomicBool>) -> T + Send,
+    board: &Arc<Board>,
+    work: impl FnOnce(&Arc<AtomicBool>) -> PyResult<T> + Send + 'static,
 ) -> PyResult<T> {
     let running = Running::new()?;
-    let stop = &running.stop;
-    let (answer, raised) = py.detach(|| {
-        thread::scope(|scope| {
-            let (working, ended) = sync_channel::<()>(0);
-            let worker = scope.spawn(|| {
-                let _working = working;
-                work(stop)
-            });
-            let raised = attend(&ended, listener, board).err();
-            if raised.is_some() {
-                stop.store(true, Ordering::SeqCst);
-            }
-            (worker.join(), raised)
-        })
-    });
-    let answer = answer.map_err(|panic| broken(&*panic))?;
-    raised.map_or(Ok(()), Err)?;
-    if stop.load(Ordering::Relaxed) {
-        // The program ends: the thread that called may end without a word.
-        return Err(PySystemExit::new_err(()));
+    let answer = beside(py, &running.stop, listener, board, work)?;
+    if running.stop.load(Ordering::Relaxed) {
+        return Err(ending());
     }
     board.report(py, listener)?;
-    Ok(answer)
+    answer
 }
 
-/// Waits for the end of the work; what Python raises meanwhile ends the wait.
-fn attend(ended: &Receiver<()>, listener: &Listener, board: &Board) -> PyResult<()> {
-    let mut ticks = 0;
-    while ended.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
+/// Runs short work that may have to wait for something, such as a file, so that signals end the wait.
+///
+/// # Errors
+/// As [`attended`].
+pub(crate) fn aside<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce() -> PyResult<T> + Send + 'static,
+) -> PyResult<T> {
+    beside(py, &Arc::default(), &None, &Arc::default(), |_| work())?
+}
+
+/// What `work` gives on another thread. Fails if something is raised here meanwhile, or the work panics; what it
+/// refuses with is its answer.
+fn beside<T: Send + 'static>(
+    py: Python<'_>,
+    stop: &Arc<AtomicBool>,
+    listener: &Listener,
+    board: &Arc<Board>,
+    work: impl FnOnce(&Arc<AtomicBool>) -> T + Send + 'static,
+) -> PyResult<T> {
+    let (give, answer) = sync_channel(1);
+    let flag = Arc::clone(stop);
+    let worker = thread::Builder::new()
+        .spawn(move || {
+            // nobody is there to take what comes too late
+            let _ = give.send(work(&flag));
+        })
+        .map_err(|reason| no_thread(&reason))?;
+    py.detach(move || {
+        let (answer, raised) = attend(&answer, stop, listener, board);
+        match answer {
+            Ok(answer) => {
+                let _ = worker.join();
+                raised.map(|()| answer)
+            }
+            Err(RecvTimeoutError::Disconnected) => match worker.join() {
+                Err(panic) => Err(broken(&*panic)),
+                Ok(()) => Err(broken(&"no answer")),
+            },
+            Err(RecvTimeoutError::Timeout) => Err(raised.err().unwrap_or_else(ending)),
+        }
+    })
+}
+
+/// Waits for the answer; what Python raises meanwhile, or the end of the program, gives the work a little time to stop.
+fn attend<T>(
+    answer: &Receiver<T>,
+    stop: &AtomicBool,
+    listener: &Listener,
+    board: &Board,
+) -> (Result<T, RecvTimeoutError>, PyResult<()>) {
+    let (mut ticks, mut left, mut raised) = (0, TICKS_TO_STOP, Ok(()));
+    loop {
+        let answer = answer.recv_timeout(TICK);
+        if left == 0 || !matches!(answer, Err(RecvTimeoutError::Timeout)) {
+            return (answer, raised);
+        }
+        if stop.load(Ordering::Relaxed) {
+            left -= 1;
+            continue;
+        }
         ticks += 1;
         let look = |py: Python<'_>| {
             py.check_signals()?;
@@ -143,24 +189,32 @@ fn attend(ended: &Receiver<()>, listener: &Listener, board: &Board) -> PyResult<
             Ok::<(), PyErr>(())
         };
         // There is nobody to ask while the interpreter ends.
-        Python::try_attach(look).unwrap_or(Ok(()))?;
+        raised = Python::try_attach(look).unwrap_or(Ok(()));
+        if raised.is_err() {
+            stop.store(true, Ordering::SeqCst);
+        }
     }
-    Ok(())
+}
+
+/// The program ends: the thread that called may end without a word.
+fn ending() -> PyErr {
+    PySystemExit::new_err(())
+}
+
+fn no_thread(reason: &io::Error) -> PyErr {
+    of_computation(format!(
+        "no thread can be started to compute beside Python ({reason}): the limit on processes and threads \
+         (`ulimit -u`), the memory, or RUST_MIN_STACK does not allow one"
+    ))
+}
+
+/// What `work` gives on this thread; a panic in it is an `InternalError`.
+pub(crate) fn sound<T>(work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(broken(&*panic)))
 }
 
 fn lock<T>(what: &Mutex<T>) -> MutexGuard<'_, T> {
     what.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-fn broken(panic: &(dyn Any + Send)) -> PyErr {
-    let text = panic.downcast_ref::<String>().map(String::as_str);
-    let said = text.or(panic.downcast_ref::<&str>().copied());
-    let text = format!(
-        "saltus broke down ({}). This is an error of the program, not of your input: please report it with what \
-         you called",
-        said.unwrap_or("no message")
-    );
-    InternalError::new_err((text,))
 }
 
 /// Work under way, in this process or in the one it was forked from.
@@ -237,13 +291,15 @@ pub(crate) fn shut_down(py: Python<'_>) {
     }
 }
 
-/// Counts to `total` as long work does, and panics at the end if asked: what the tests of this file run.
+/// Counts to `total` as long work does, or as work that looks at no flag, and panics at the end if asked: what the
+/// tests of this file run.
 #[pyfunction]
-#[pyo3(signature = (total, *, panics=false, progress=None))]
+#[pyo3(signature = (total, *, panics=false, stops=true, progress=None))]
 pub(crate) fn count(
     py: Python<'_>,
     total: u64,
     panics: bool,
+    stops: bool,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<u64> {
     let progress = Progress {
@@ -251,11 +307,11 @@ pub(crate) fn count(
         what: "counting",
         total: Some(total),
     };
-    run(py, &progress, |stop, done| {
-        while done.load(Ordering::Relaxed) < total && !stop.load(Ordering::Relaxed) {
+    run(py, &progress, move |stop, done| {
+        while done.load(Ordering::Relaxed) < total && !(stop.load(Ordering::Relaxed) && stops) {
             done.fetch_add(1, Ordering::Relaxed);
         }
         assert!(!panics, "the count was to panic");
-        done.load(Ordering::Relaxed)
+        Ok(done.load(Ordering::Relaxed))
     })
 }

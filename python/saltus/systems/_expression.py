@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import math
-from numbers import Real
+from numbers import Complex, Real
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from saltus._errors import DefinitionError
+from saltus._errors import DefinitionError, FormulaError
+from saltus.systems._entrywise import Entrywise, array_of
+from saltus.systems._refusals import no_formula, refuse_others, refusing
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
@@ -31,7 +33,8 @@ MAX_POWER = 64
 _SHOWN = 6
 
 
-class Expression:
+@refuse_others
+class Expression(Entrywise):
     """A formula: sums, products and whole powers of states, with numbers and parameters.
 
     Made by `states`, `parameters`, `Forcing` and by calculating with what they give; arrays of
@@ -39,7 +42,8 @@ class Expression:
     parameters alone may hold any power and quotient, and `numpy.sqrt`, `numpy.exp`, `numpy.log`,
     `numpy.sin`, `numpy.cos`, `numpy.tan`, `numpy.arctan` and `abs`.
 
-    Expressions are compared by identity, and have no truth value.
+    Expressions are compared with each other by identity, and have no value, so no truth value either:
+    what else is asked of them is a `saltus.FormulaError` that says what to write instead.
     """
 
     __slots__ = ("changes", "of", "operation", "tag")
@@ -135,17 +139,30 @@ class Expression:
         """Inverse tangent, of what does not change with time."""
         return self._function("arctan")
 
+    def conjugate(self) -> Expression:
+        """Return the same: formulas are real."""
+        return self
+
     def _function(self, name: str) -> Expression:
         if self.changes:
-            raise DefinitionError(_not_polynomial(f"{name} of {self!r}"))
+            raise no_formula(name, [self])
         return Expression(name, (self,), changes=False)
 
-    def __bool__(self) -> bool:
-        """Raise TypeError: what switches is a `Unit`."""
-        raise TypeError(
-            f"whether {self!r} is zero is not known before the system runs; "
-            "what switches is a Unit with guards"
-        )
+    def __eq__(self, other: object) -> bool:
+        """Whether it is the other expression; FormulaError for a number."""
+        if isinstance(other, Real):
+            raise no_formula("equal", [self, other])
+        return self is other if isinstance(other, Expression) else NotImplemented
+
+    __hash__ = object.__hash__
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            """Refuse what NumPy calls for a function of each entry of an array."""
+            if not isinstance(getattr(np, name, None), np.ufunc):
+                raise AttributeError(f"an expression has no {name}")
+            return refusing(name).__get__(self)
 
     def __repr__(self) -> str:
         """Show the formula, shortened if it is long."""
@@ -156,8 +173,20 @@ class Expression:
 ExpressionLike: TypeAlias = Expression | float | np.floating[Any] | np.integer[Any]
 
 
-def states(*names: str) -> tuple[Expression, ...]:
+#: One scale, or one for each state; None where the state's own size is enough.
+Scales: TypeAlias = Any
+
+
+def states(*names: str, scale: Scales = None) -> tuple[Expression, ...]:
     """States of a system, one for each name.
+
+    Parameters
+    ----------
+    *names : str
+        What they are called.
+    scale : float or Expression of parameters, or a sequence of one for each state, optional
+        The size below which a state need not be resolved further, in its unit: the tolerance of a
+        method is relative to a state's own size along the way, and to its scale where that is larger.
 
     Examples
     --------
@@ -165,10 +194,10 @@ def states(*names: str) -> tuple[Expression, ...]:
     >>> -x - 0.1 * v
     ((-x) - (0.1 * v))
     """
-    return tuple(Expression("state", tag=name, changes=True) for name in names)
+    return tuple(_state_entries(names, (len(names),), scale))
 
 
-def state_array(name: str, shape: int | tuple[int, ...]) -> NDArray[np.object_]:
+def state_array(name: str, shape: int | tuple[int, ...], *, scale: Scales = None) -> NDArray[np.object_]:
     """Give an array of states, ``name[0]``, ``name[1]``, ...
 
     Parameters
@@ -177,12 +206,44 @@ def state_array(name: str, shape: int | tuple[int, ...]) -> NDArray[np.object_]:
         What they are called.
     shape : int or tuple of int
         Shape of the array.
+    scale : float, Expression of parameters, or array_like of them, optional
+        As for `states`; an array is broadcast to `shape`.
 
     Returns
     -------
     ndarray of Expression
     """
-    return _named(name, shape, lambda label: Expression("state", tag=label, changes=True))
+    places = list(np.ndindex(shape))
+    labels = [f"{name}[{', '.join(map(str, place))}]" for place in places]
+    array = array_of(shape)
+    for place, entry in zip(places, _state_entries(labels, array.shape, scale), strict=True):
+        array[place] = entry
+    return array
+
+
+def _state_entries(labels: Sequence[str], shape: tuple[int, ...], scale: Scales) -> list[Expression]:
+    given = np.asarray(scale, dtype=object)
+    try:
+        scales = np.broadcast_to(given, shape).ravel()
+    except ValueError:
+        raise DefinitionError(
+            f"scale has the shape {given.shape}: one number, or one for each of {list(labels)} is needed"
+        ) from None
+    return [
+        Expression("state", tag=(label, _scale(label, one)), changes=True)
+        for label, one in zip(labels, scales, strict=True)
+    ]
+
+
+def _scale(label: str, value: Any) -> Expression | None:
+    if value is None:
+        return None
+    scale = expression(value)
+    if scale.changes:
+        raise DefinitionError(f"the scale of {label} is {scale!r}: it must not change with time")
+    if scale.operation == "number" and scale.tag <= 0.0:
+        raise DefinitionError(f"the scale of {label} is {scale!r}: a positive number is needed")
+    return scale
 
 
 def parameters(*names: str) -> tuple[Expression, ...]:
@@ -205,7 +266,7 @@ def parameter_array(name: str, shape: int | tuple[int, ...]) -> NDArray[np.objec
     ndarray of Expression
     """
     whole = (shape,) if isinstance(shape, int) else tuple(shape)
-    array = np.empty(whole, dtype=object)
+    array = array_of(whole)
     for place, index in enumerate(np.ndindex(whole)):
         array[index] = Expression("parameter", tag=(name, whole, place), changes=False)
     return array
@@ -234,37 +295,24 @@ def expression(value: ExpressionLike) -> Expression:
 def _binary(operation: str, first: ExpressionLike, second: ExpressionLike) -> Any:
     for operand in (first, second):
         if not isinstance(operand, Expression | Real):
+            if isinstance(operand, Complex):
+                raise FormulaError(
+                    f"{operand!r} cannot stand in a formula: write real and imaginary part as two states"
+                )
             # Arrays go on with each of their entries; everything else is a TypeError.
             return NotImplemented
     a, b = expression(first), expression(second)
+    changes = a.changes or b.changes
     if operation == "divide" and b.changes:
-        raise DefinitionError(_not_polynomial(f"a division by {b!r}"))
-    if operation == "power" and (a.changes or b.changes) and not _is_power(b):
-        raise DefinitionError(
-            f"{a!r} to the power {b!r}: whole powers from 0 to {MAX_POWER} are possible"
-        )
-    return Expression(operation, (a, b), changes=a.changes or b.changes)
+        raise no_formula(operation, [a, b])
+    if operation == "power" and changes and not _is_power(b):
+        raise no_formula(operation, [a, b])
+    return Expression(operation, (a, b), changes=changes)
 
 
 def _is_power(exponent: Expression) -> bool:
     number = exponent.tag if exponent.operation == "number" else -1.0
     return bool(float(number).is_integer() and 0 <= number <= MAX_POWER)
-
-
-def _not_polynomial(what: str) -> str:
-    return (
-        f"{what}: a system is made of sums, products and whole powers of its states; "
-        "a further state whose rate is known can stand for another function"
-    )
-
-
-def _named(
-    name: str, shape: int | tuple[int, ...], make: Callable[[str], Expression]
-) -> NDArray[np.object_]:
-    array = np.empty(shape, dtype=object)
-    for index in np.ndindex(array.shape):
-        array[index] = make(f"{name}[{', '.join(map(str, index))}]")
-    return array
 
 
 _SIGNS = {"add": "+", "subtract": "-", "multiply": "*", "divide": "/", "power": "**"}
@@ -277,8 +325,10 @@ def _shown(part: Expression, depth: int) -> str:
         name, shape, *place = part.tag
         index = [int(i) for i in np.unravel_index(place[0], shape)] if place else ""
         return f"{name}{index}"
+    if part.operation == "state":
+        return str(part.tag[0])
     if not part.of:
-        return str(part.tag) if part.operation == "state" else part.operation
+        return part.operation
     if depth == 0:
         return "..."
     inner = [_shown(one, depth - 1) for one in part.of]

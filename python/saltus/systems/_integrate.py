@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from saltus._arguments import modes_array, reals, whole
+from saltus._arguments import flag, modes_array, positive, reals, whole
 from saltus._progress import Progress, watched
+from saltus.systems._system import System
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from numpy.typing import ArrayLike, NDArray
-
-    from saltus.systems._system import System
 
 __all__ = [
     "Members",
@@ -80,6 +80,7 @@ class Options:
         if isinstance(self.method, RungeKutta4):
             whole("steps_per_period", self.method.steps_per_period, 1, 2**31)
         elif isinstance(self.method, Taylor):
+            positive("tolerance", self.method.tolerance)
             whole("order", 4 if self.method.order is None else self.method.order, 4, 30)
             known = ("best", "avx2", "baseline")
             if self.method.instructions not in known:
@@ -203,6 +204,10 @@ class Members:
         parameters: Mapping[str, Any] | None,
     ) -> Members:
         """Check and broadcast."""
+        if not isinstance(system, System):
+            raise TypeError(f"system is {system!r}: a System is needed")
+        if not isinstance(parameters or {}, Mapping):
+            raise TypeError(f"parameters is {parameters!r}: a mapping from names to values is needed")
         given = dict(parameters or {})
         shapes = system.parameters
         if set(given) != set(shapes):
@@ -306,7 +311,7 @@ def integrate(
             periods=keep,
             transient=before,
             per_period=each,
-            switches=switches,
+            switches=flag("switches", switches),
             settings=options,
             progress=show,
         )

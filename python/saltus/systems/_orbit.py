@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from saltus._arguments import reals, whole
+from saltus._arguments import positive, reals, whole
 from saltus.systems._integrate import Members, Options, Taylor
 
 if TYPE_CHECKING:
@@ -118,7 +118,7 @@ def find_orbit(
     if (members.parameters != members.parameters[0]).any():
         raise ValueError("an orbit has one value of each parameter")
     given = members.shape[0]
-    around = given if period is None else whole("period", period, 1)
+    around = given if period is None else whole("period", period, 1, 2**31)
     if given not in (1, around):
         raise ValueError(f"start has {given} places and period is {around}: 1 or {around} would do")
     raw = system.program.find_orbit(
@@ -126,8 +126,8 @@ def find_orbit(
         starts=members.starts,
         modes=members.modes,
         period=around,
-        tolerance=float(reals("tolerance", tolerance)),
-        iterations=whole("iterations", iterations, 1),
+        tolerance=positive("tolerance", tolerance),
+        iterations=whole("iterations", iterations, 1, 2**31),
         settings=Options(method, max_switches, threads),
     )
     n = len(system.states)

@@ -10,6 +10,7 @@ import numpy as np
 
 from saltus._arguments import whole
 from saltus._errors import DefinitionError
+from saltus.systems._entrywise import array_of
 from saltus.systems._expression import Expression, ExpressionLike, expression
 
 __all__ = ["Forcing", "Pairs", "Transition", "Unit", "pairs"]
@@ -19,7 +20,7 @@ Pairs: TypeAlias = Mapping[Expression, Any] | Iterable[tuple[Any, Any]]
 
 
 class Forcing:
-    """A harmonic forcing.
+    """A harmonic forcing. A system has one.
 
     Parameters
     ----------
@@ -29,7 +30,8 @@ class Forcing:
     Attributes
     ----------
     cos, sin : Expression
-        cos Ωt and sin Ωt. Other phases and harmonics are sums and products of them.
+        cos Ωt and sin Ωt. Other phases and harmonics are sums and products of them. A second
+        frequency ω takes two further states c and s, with the rates -ω s and ω c and the start (1, 0).
     """
 
     def __init__(self, frequency: ExpressionLike) -> None:
@@ -106,7 +108,7 @@ class Unit:
                 f"formulas for {sorted(all_modes)}: one is needed for each of {list(self.modes)}"
             )
         parts: Any = np.broadcast_arrays(*(_objects(all_modes[mode]) for mode in self.modes))
-        out = np.empty(parts[0].shape, dtype=object)
+        out = array_of(parts[0].shape)
         for index in np.ndindex(out.shape):
             of = tuple(expression(part[index]) for part in parts)
             changes = any(one.changes for one in of)
@@ -150,13 +152,17 @@ class Unit:
         if (falling is None) == (rising is None):
             raise DefinitionError("a transition has one guard: give either falling or rising")
         guard = expression(falling if falling is not None else rising)  # type: ignore[arg-type]
+        resets = tuple((state, expression(value)) for state, value in pairs("reset", reset))
+        once = {state for state, _ in resets}
+        if len(once) < len(resets):
+            raise DefinitionError(f"reset: {[state for state, _ in resets]}: each state is reset once")
         return Transition(
             unit=self,
             source=source,
             target=target,
             guard=guard,
             direction="falling" if falling is not None else "rising",
-            resets=tuple((state, expression(value)) for state, value in pairs("reset", reset)),
+            resets=resets,
             vanishing=tuple(
                 (one, whole("a multiplicity", count, 1, 255))
                 for one, count in pairs("vanishing", vanishing)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -11,11 +12,12 @@ import numpy as np
 from saltus import _native
 from saltus._errors import DefinitionError
 from saltus.systems._expression import Expression, ExpressionLike, expression
+from saltus.systems._switching import Forcing, Transition
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
-    from saltus.systems._switching import Forcing, Transition, Unit
+    from saltus.systems._switching import Unit
 
 __all__ = ["Definition", "System"]
 
@@ -36,6 +38,8 @@ class Definition:
     modes: tuple[tuple[str, ...], ...]
     #: Shape of each parameter, by name.
     parameters: dict[str, tuple[int, ...]] = field(default_factory=dict)
+    #: Place of the scale of each state, where one is given.
+    scales: tuple[int | None, ...] = ()
 
     def program(self) -> _native.Program:
         """The same as a program of the engine."""
@@ -46,6 +50,7 @@ class Definition:
             forced=self.forced,
             clock=self.clock,
             units=self.units,
+            scales=self.scales,
         )
 
 
@@ -78,7 +83,8 @@ class System:
     Raises
     ------
     DefinitionError
-        If states, rates and transitions do not make a system; the message says why.
+        If states, rates and transitions do not make a system, or a name stands for two things; the
+        message says why.
 
     Examples
     --------
@@ -104,7 +110,11 @@ class System:
         interval: ExpressionLike | None = None,
         transitions: Iterable[Transition] = (),
     ) -> None:
-        self._open(_define(states, rates, forcing, interval, tuple(transitions)))
+        leaves = [transitions] if isinstance(transitions, Transition) else list(transitions)
+        wrong = [one for one in leaves if not isinstance(one, Transition)]
+        if wrong:
+            raise DefinitionError(f"{wrong[0]!r} is no transition: Unit.transition makes them")
+        self._open(_define(states, rates, forcing, interval, tuple(leaves)))
 
     def _open(self, definition: Definition) -> None:
         self._definition = definition
@@ -159,23 +169,37 @@ def _define(
         raise DefinitionError(f"{wrong[0]!r} is no state" if wrong else "a system needs a state")
     if len(set(own)) < len(own):
         raise DefinitionError("a state is named twice")
+    twice = [name for name, count in Counter(map(str, own)).items() if count > 1]
+    if twice:
+        raise DefinitionError(f"two states have the name {twice[0]!r}: give them different names")
     flow = [expression(rate) for rate in _flat(rates)]
     if len(flow) != len(own):
         raise DefinitionError(f"{len(own)} states and {len(flow)} rates: each state needs one rate")
     if (forcing is None) == (interval is None):
         raise DefinitionError("a system is sampled by its forcing or at an interval: give one of them")
+    if forcing is not None and not isinstance(forcing, Forcing):
+        raise DefinitionError(f"forcing is {forcing!r}: one Forcing is needed, such as Forcing(1.0)")
     clock = forcing.frequency if forcing is not None else expression(interval)  # type: ignore[arg-type]
     listing = _Listing(own, forcing, transitions)
-    return Definition(
+    definition = Definition(
         rates=tuple(listing.place(rate) for rate in flow),
         forced=forcing is not None,
         clock=listing.place(clock),
         units=listing.units(transitions),
+        scales=tuple(None if (scale := state.tag[1]) is None else listing.place(scale) for state in own),
         operations=tuple(listing.operations),
-        states=tuple(str(state.tag) for state in own),
+        states=tuple(str(state) for state in own),
         modes=tuple(unit.modes for unit in listing.known_units),
         parameters=listing.parameters,
     )
+    # q[0] is of q
+    named = {name.partition("[")[0] for name in definition.states}
+    both = [name for name in definition.parameters if name in named]
+    if both:
+        raise DefinitionError(
+            f"a state and a parameter have the name {both[0]!r}: give them different names"
+        )
+    return definition
 
 
 def _flat(values: Any) -> Iterator[Any]:
@@ -233,8 +257,22 @@ class _Listing:
                 self.known_units.append(part.tag)
             return self.known_units.index(part.tag)
         if part.operation.startswith("forcing") and part.tag is not self._forcing:
-            raise DefinitionError("a formula holds a forcing that is not the forcing of the system")
+            raise DefinitionError(self._foreign(part.operation, part.tag))
         return 0.0
+
+    def _foreign(self, what: str, other: Forcing) -> str:
+        """Why a forcing in a formula is not that of the system."""
+        if self._forcing is None:
+            return (
+                f"a formula holds the {what} of {other!r}, and the system has no forcing: "
+                "give it as forcing=... in place of the interval"
+            )
+        return (
+            f"a formula holds the {what} of {other!r}, which is not the forcing of the system, "
+            f"{self._forcing!r}: a system has one, so take its own cos and sin. A second frequency w "
+            "takes two further states c and s, with the rates -w * s and w * c and the start (1, 0); "
+            "a multiple of the first is a product, such as cos(2t) = 2 * cos**2 - 1"
+        )
 
     def state(self, state: Expression) -> int:
         """The index of a state."""

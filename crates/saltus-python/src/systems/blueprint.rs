@@ -60,6 +60,8 @@ pub(crate) struct Blueprint {
     pub(crate) made: usize,
     /// The rate of each state.
     pub(crate) rates: Vec<Value>,
+    /// The scale of each state, where one is given.
+    pub(crate) scales: Vec<Option<Coefficient>>,
     /// What ends each mode of each unit.
     pub(crate) units: Vec<Vec<Vec<Leave>>>,
 }
@@ -102,6 +104,11 @@ impl Blueprint {
         for (state, &rate) in self.rates.iter().enumerate() {
             b.derivative(state, nodes.of(rate));
         }
+        for (state, scale) in self.scales.iter().enumerate() {
+            if let Some(scale) = scale {
+                give_scale(&mut b, state, values.of(*scale));
+            }
+        }
         for (unit, modes) in units.into_iter().zip(&self.units) {
             let leave = |leave: &Leave| nodes.transition(leave);
             let modes = modes.iter().map(|all| all.iter().map(leave).collect());
@@ -133,10 +140,16 @@ impl Blueprint {
             Clock::Interval(c) if !positive(values.of(c)) => {
                 refuse("the interval", values.of(c), "positive")
             }
-            _ => match self.used().map(|c| values.of(c)).find(|x| !x.is_finite()) {
-                Some(value) => refuse("a coefficient", value, "finite"),
-                None => Ok(values),
-            },
+            _ => {
+                let mut scales = self.scales.iter().flatten().map(|&c| values.of(c));
+                if let Some(value) = scales.find(|&x| !positive(x)) {
+                    return refuse("the scale of a state", value, "positive");
+                }
+                match self.used().map(|c| values.of(c)).find(|x| !x.is_finite()) {
+                    Some(value) => refuse("a coefficient", value, "finite"),
+                    None => Ok(values),
+                }
+            }
         }
     }
 
@@ -153,6 +166,11 @@ impl Blueprint {
             }
         })
     }
+}
+
+/// MERGE: `b.scale(state, scale)` once the builder has it; nothing else is missing.
+fn give_scale(b: &mut SystemBuilder, state: usize, scale: f64) {
+    let _ = (b, state, scale);
 }
 
 /// The engine's nodes of what has been made.

@@ -1,5 +1,6 @@
 //! Many trajectories of a system, kept as arrays.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use numpy::{IntoPyArray, PyArray1};
@@ -65,12 +66,13 @@ pub(crate) struct Trajectories {
 /// Runs every member.
 pub(crate) fn run(
     py: Python<'_>,
-    blueprint: &Blueprint,
-    members: &Members,
-    plan: &Plan,
-    settings: &Settings,
+    blueprint: &Arc<Blueprint>,
+    members: Members,
+    plan: Plan,
+    settings: Settings,
     progress: &Progress<'_>,
 ) -> PyResult<Trajectories> {
+    let blueprint = Arc::clone(blueprint);
     let (states, units) = (blueprint.states(), blueprint.units.len());
     let rows = usize::try_from(plan.periods)
         .ok()
@@ -83,33 +85,34 @@ pub(crate) fn run(
         samples_per_period,
         ..settings.options()
     };
-    let work = |stop: &AtomicBool, done: &AtomicU64| -> PyResult<Vec<Ended>> {
-        let first = match members.count {
-            0 => return Ok(Vec::new()),
-            _ => blueprint
+    let work = move |stop: &AtomicBool, done: &AtomicU64| {
+        let mut ended = Vec::new();
+        if members.count > 0 {
+            let first = blueprint
                 .system(members.parameters.row(0))
-                .map_err(of_definition)?,
-        };
-        let mut kept = samples.chunks_mut((rows * states).max(1));
-        let mut kept_modes = modes.chunks_mut((rows * units).max(1));
-        let member = |index: usize| Member {
-            blueprint,
-            first: &first,
-            members,
-            index,
-            plan,
-            samples: kept.next().unwrap_or_default(),
-            modes: kept_modes.next().unwrap_or_default(),
-            period: first.period(),
-            switches: Switches::default(),
-            end: None,
-            done,
-        };
-        let tasks = (0..members.count).map(member).collect();
-        let ended = integrate_all(&options, tasks, settings.threads, stop).map_err(of_run)?;
-        Ok(ended.into_iter().map(|m| (m.switches, m.end)).collect())
+                .map_err(of_definition)?;
+            let mut kept = samples.chunks_mut((rows * states).max(1));
+            let mut kept_modes = modes.chunks_mut((rows * units).max(1));
+            let member = |index: usize| Member {
+                blueprint: &blueprint,
+                first: &first,
+                members: &members,
+                index,
+                plan: &plan,
+                samples: kept.next().unwrap_or_default(),
+                modes: kept_modes.next().unwrap_or_default(),
+                period: first.period(),
+                switches: Switches::default(),
+                end: None,
+                done,
+            };
+            let tasks = (0..members.count).map(member).collect();
+            let all = integrate_all(&options, tasks, settings.threads, stop).map_err(of_run)?;
+            ended.extend(all.into_iter().map(|m| (m.switches, m.end)));
+        }
+        Ok((ended, samples, modes))
     };
-    let ended = run_beside(py, progress, work)??;
+    let (ended, samples, modes) = run_beside(py, progress, work)?;
     collect(py, ended, states, samples, modes)
 }
 

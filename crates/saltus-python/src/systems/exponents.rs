@@ -1,5 +1,6 @@
 //! Lyapunov exponents of many trajectories.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use numpy::{IntoPyArray, PyArray1};
@@ -29,15 +30,16 @@ pub(crate) struct Exponents {
 /// The `count` largest exponents from `length` = (transient, periods).
 pub(crate) fn run(
     py: Python<'_>,
-    blueprint: &Blueprint,
-    members: &Members,
+    blueprint: &Arc<Blueprint>,
+    members: Members,
     length: (u64, u64),
     count: usize,
-    settings: &Settings,
+    settings: Settings,
     progress: &Progress<'_>,
 ) -> PyResult<Exponents> {
+    let blueprint = Arc::clone(blueprint);
     let options = settings.options();
-    let ended = run_beside(py, progress, |stop, done| {
+    let ended = run_beside(py, progress, move |stop, done| {
         let wide = |index: usize| {
             let system = blueprint
                 .system(members.parameters.row(index))
@@ -68,7 +70,7 @@ pub(crate) fn run(
     });
     let (mut exponents, mut errors) = (Vec::new(), Vec::new());
     let (mut dimension, mut dimension_error, mut status) = (Vec::new(), Vec::new(), Vec::new());
-    for (period, spectrum, end) in ended?? {
+    for (period, spectrum, end) in ended? {
         for exponent in spectrum.estimate() {
             exponents.push(exponent.per_iterate / period);
             errors.push(exponent.standard_error / period);

@@ -81,7 +81,11 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Op {
     /// From (name, places of what it is made of, a number or an index).
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
         let (name, of, value): (String, Vec<usize>, f64) = object.extract()?;
-        let index = value as usize;
+        // what is no whole number names nothing
+        let index = match value as usize {
+            index if index as f64 == value => index,
+            _ => usize::MAX,
+        };
         let unknown = || crate::error::of_definition(format!("no operation {name} of {of:?}"));
         let unary = match name.as_str() {
             "negative" => Some(Unary::Negative),

@@ -5,29 +5,105 @@ use saltus_hybrid::{Instructions, Method, Options};
 
 use super::blueprint::{Clock, Leave};
 use super::formula::Op;
+use crate::error::of_definition;
+
+/// A mode and a unit are told in one byte each.
+const MAX_MODES: usize = 256;
+const MAX_UNITS: usize = 256;
 
 /// A system as formulas; every `usize` is the place of an operation.
 pub(crate) struct Definition {
     pub(crate) ops: Vec<Op>,
+    /// How many parameters there are.
+    pub(crate) parameters: usize,
     pub(crate) rates: Vec<usize>,
+    /// The scale of each state, where one is given.
+    pub(crate) scales: Vec<Option<usize>>,
     pub(crate) clock: Clock<usize>,
     pub(crate) units: Vec<Vec<Vec<Leave<usize>>>>,
 }
 
+/// Why lists are no definition: they were not made by this version of saltus, or were altered.
+#[derive(Clone, Debug, thiserror::Error)]
+#[error("no system: {what} {index} is named, and there are {count} at that point")]
+pub(crate) struct Astray {
+    what: &'static str,
+    index: usize,
+    count: usize,
+}
+
+/// Whether `index` is one of `count`.
+fn within(what: &'static str, index: usize, count: usize) -> Result<(), Astray> {
+    match index < count {
+        true => Ok(()),
+        false => Err(Astray { what, index, count }),
+    }
+}
+
 impl Definition {
+    /// Whether everything that is named is there, operations only after what they read.
+    pub(crate) fn check(&self) -> Result<(), Astray> {
+        within("state", 0, self.rates.len())?;
+        within("scale", self.scales.len(), self.rates.len() + 1)?;
+        for (place, op) in self.ops.iter().enumerate() {
+            op.reads()
+                .into_iter()
+                .try_for_each(|at| within("operation", at, place))?;
+            self.check_name(op)?;
+        }
+        for at in self.named() {
+            within("operation", at, self.ops.len())?;
+        }
+        for modes in &self.units {
+            within("mode", 0, modes.len())?;
+            within("mode", modes.len() - 1, MAX_MODES)?;
+            for leave in modes.iter().flatten() {
+                within("mode", leave.to, modes.len())?;
+                let mut resets = leave.resets.iter();
+                resets.try_for_each(|&(state, _)| within("state", state, self.rates.len()))?;
+            }
+        }
+        within("unit", self.units.len().saturating_sub(1), MAX_UNITS)
+    }
+
+    /// Whether an operation stands for something that is there.
+    fn check_name(&self, op: &Op) -> Result<(), Astray> {
+        let forcings = usize::from(matches!(self.clock, Clock::Forcing(_)));
+        match op {
+            Op::Parameter(index) => within("parameter", *index, self.parameters),
+            Op::State(index) => within("state", *index, self.rates.len()),
+            Op::Cos | Op::Sin => within("forcing", 0, forcings),
+            Op::Choice { unit, by_mode } => {
+                within("unit", *unit, self.units.len())?;
+                let modes = self.units[*unit].len();
+                within(
+                    "mode",
+                    by_mode.len().max(modes) - 1,
+                    by_mode.len().min(modes),
+                )
+            }
+            Op::Number(_) | Op::Unary(..) | Op::Binary(..) => Ok(()),
+        }
+    }
+
+    /// The operations that stand for something of the system.
+    fn named(&self) -> Vec<usize> {
+        let (Clock::Forcing(at) | Clock::Interval(at)) = self.clock;
+        let mut named = [self.rates.clone(), vec![at]].concat();
+        named.extend(self.scales.iter().flatten());
+        for leave in self.units.iter().flatten().flatten() {
+            named.push(leave.guard);
+            named.extend(leave.resets.iter().map(|&(_, at)| at));
+            named.extend(leave.vanishing.iter().map(|&(at, _)| at));
+        }
+        named
+    }
+
     /// How often each operation is read.
     pub(crate) fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.ops.len()];
-        let mut read = |at: usize| uses[at] += 1;
-        self.ops.iter().flat_map(Op::reads).for_each(&mut read);
-        self.rates.iter().copied().for_each(&mut read);
-        let (Clock::Forcing(at) | Clock::Interval(at)) = self.clock;
-        read(at);
-        for leave in self.units.iter().flatten().flatten() {
-            read(leave.guard);
-            leave.resets.iter().for_each(|&(_, at)| read(at));
-            leave.vanishing.iter().for_each(|&(at, _)| read(at));
-        }
+        let read = self.ops.iter().flat_map(Op::reads).chain(self.named());
+        read.for_each(|at| uses[at] += 1);
         uses
     }
 }
@@ -38,6 +114,11 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Leave<usize> {
     /// From (guard, sign, mode that follows, resets, guards that vanish).
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
         let (guard, sign, to, resets, vanishing) = object.extract()?;
+        if ![1.0, -1.0].contains(&sign) {
+            return Err(of_definition(format!(
+                "a transition of the sign {sign}: 1 or -1 is needed"
+            )));
+        }
         Ok(Self {
             guard,
             sign,

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use super::blueprint::{Blueprint, Clock, Leave, Step, Terms, Value};
 use super::coefficients::{Coefficient, Coefficients};
 use super::formula::{Binary, Op, Unary};
-use super::input::Definition;
+use super::input::{Astray, Definition};
 
 /// What an operation amounts to.
 #[derive(Clone, Debug)]
@@ -46,10 +46,13 @@ pub(crate) enum NoProgram {
     Exponent,
     #[error("{0} must not change with time")]
     Moving(&'static str),
+    #[error(transparent)]
+    Astray(#[from] Astray),
 }
 
 /// The program of a definition.
 pub(crate) fn lower(definition: &Definition) -> Result<Blueprint, NoProgram> {
+    definition.check()?;
     let states = definition.rates.len();
     let mut lowering = Lowering {
         states,
@@ -67,6 +70,12 @@ pub(crate) fn lower(definition: &Definition) -> Result<Blueprint, NoProgram> {
         Clock::Forcing(omega) => Clock::Forcing(lowering.fixed(omega, "the forcing frequency")?),
         Clock::Interval(time) => Clock::Interval(lowering.fixed(time, "the interval")?),
     };
+    let mut scale = |at: &Option<usize>| {
+        at.map(|at| lowering.fixed(at, "the scale of a state"))
+            .transpose()
+    };
+    let scales: Result<_, NoProgram> = definition.scales.iter().map(&mut scale).collect();
+    let scales = scales?;
     let rates = definition
         .rates
         .iter()
@@ -83,6 +92,7 @@ pub(crate) fn lower(definition: &Definition) -> Result<Blueprint, NoProgram> {
         made: lowering.made.len(),
         coefficients: lowering.coefficients,
         rates,
+        scales,
         units,
     })
 }

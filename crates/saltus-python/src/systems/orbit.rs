@@ -1,5 +1,7 @@
 //! Periodic orbits of a system and their Floquet multipliers.
 
+use std::sync::Arc;
+
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use saltus_orbits::{Family, Lost, NewtonOptions, Place, Shot, Stroboscopic, find_orbit};
@@ -39,36 +41,36 @@ pub(crate) struct Orbit {
 /// The orbit near the members: one for each period, or the first one of them.
 pub(crate) fn find(
     py: Python<'_>,
-    blueprint: &Blueprint,
-    members: &Members,
-    search: &Search,
-    settings: &Settings,
+    blueprint: &Arc<Blueprint>,
+    members: Members,
+    search: Search,
+    settings: Settings,
 ) -> PyResult<Orbit> {
+    let blueprint = Arc::clone(blueprint);
     let states = blueprint.states();
     let newton = NewtonOptions {
         tolerance: search.tolerance,
         iterations: search.iterations,
         segments: None,
     };
-    let place = |i: usize| Place {
-        modes: members.modes.row(i).to_vec(),
-        x: members.starts.row(i).to_vec(),
-    };
-    let given: Vec<Place> = (0..members.count).map(place).collect();
-    let parameters = members.parameters.row(0);
     let progress = Progress {
         call: None,
         what: "orbit",
         total: None,
     };
-    let found = run(py, &progress, |stop, _| {
+    let orbit = run(py, &progress, move |stop, _| {
+        let place = |i: usize| Place {
+            modes: members.modes.row(i).to_vec(),
+            x: members.starts.row(i).to_vec(),
+        };
+        let given: Vec<Place> = (0..members.count).map(place).collect();
+        let parameters = members.parameters.row(0);
         let system_at = |p: &[f64]| blueprint.system(p).map_err(|error| error.to_string());
         let options = settings.options();
         let map = Stroboscopic::new(system_at, states, options, settings.threads, stop);
         let start = led_on(&map, parameters, given, search.period).map_err(of_computation)?;
         find_orbit(&map, parameters, &start, &newton).map_err(of_computation)
-    });
-    let orbit = found??;
+    })?;
     let monodromy = |row: usize| (0..states).map(move |column| (row, column));
     let monodromy: Vec<f64> = (0..states)
         .flat_map(monodromy)

@@ -1,5 +1,7 @@
 //! A system of a user's own, ready to be asked.
 
+use std::sync::Arc;
+
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 
@@ -11,12 +13,12 @@ use super::input::{Definition, Settings};
 use super::lower::lower;
 use super::orbit::{self, Orbit, Search};
 use crate::error::of_definition;
-use crate::running::Progress;
+use crate::running::{Progress, sound};
 
 /// A system as a program of the engine. It never changes.
 #[pyclass(frozen, module = "saltus._native")]
 pub(crate) struct Program {
-    pub(crate) blueprint: Blueprint,
+    blueprint: Arc<Blueprint>,
     parameters: usize,
 }
 
@@ -79,6 +81,12 @@ impl Program {
             )));
         }
         for member in 0..count {
+            let modes = members.modes.row(member).iter().zip(&blueprint.units);
+            if modes.into_iter().any(|(&mode, unit)| mode >= unit.len()) {
+                return Err(of_definition(format!(
+                    "member {member}: a mode that its unit does not have"
+                )));
+            }
             let row = members.parameters.row(member);
             let fits = match member {
                 0 => blueprint.system(row).map(drop),
@@ -96,7 +104,7 @@ impl Program {
 impl Program {
     /// From operations in which each reads earlier ones, and the places of what they make.
     #[new]
-    #[pyo3(signature = (*, operations, parameters, rates, forced, clock, units))]
+    #[pyo3(signature = (*, operations, parameters, rates, forced, clock, units, scales=Vec::new()))]
     fn new(
         operations: Vec<Op>,
         parameters: usize,
@@ -104,10 +112,13 @@ impl Program {
         forced: bool,
         clock: usize,
         units: Vec<Vec<Vec<Leave<usize>>>>,
+        scales: Vec<Option<usize>>,
     ) -> PyResult<Self> {
         let definition = Definition {
             ops: operations,
+            parameters,
             rates,
+            scales,
             clock: if forced {
                 Clock::Forcing(clock)
             } else {
@@ -115,8 +126,9 @@ impl Program {
             },
             units,
         };
+        let blueprint = sound(|| lower(&definition).map_err(of_definition))?;
         Ok(Self {
-            blueprint: lower(&definition).map_err(of_definition)?,
+            blueprint: Arc::new(blueprint),
             parameters,
         })
     }
@@ -131,13 +143,16 @@ impl Program {
     fn periods(&self, parameters: PyReadonlyArray2<'_, f64>) -> PyResult<Vec<f64>> {
         let parameters = parameters.as_array();
         let row = |row: numpy::ndarray::ArrayView1<'_, f64>| {
+            if row.len() != self.parameters {
+                return Err(of_definition("a row needs a value of each parameter"));
+            }
             let system = self
                 .blueprint
                 .system(&row.to_vec())
                 .map_err(of_definition)?;
             Ok(system.period())
         };
-        parameters.rows().into_iter().map(row).collect()
+        sound(|| parameters.rows().into_iter().map(row).collect())
     }
 
     /// Runs every member and keeps its samples.
@@ -156,7 +171,7 @@ impl Program {
         settings: Settings,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Trajectories> {
-        let members = self.members(&parameters, &starts, &modes)?;
+        let members = sound(|| self.members(&parameters, &starts, &modes))?;
         let plan = Plan {
             periods,
             transient,
@@ -168,7 +183,7 @@ impl Program {
             what: "integrating",
             total: Some(plan.work(&members)),
         };
-        ensemble::run(py, &self.blueprint, &members, &plan, &settings, &progress)
+        ensemble::run(py, &self.blueprint, members, plan, settings, &progress)
     }
 
     /// The periodic orbit near one start for each of its periods, or near the orbit of a single start.
@@ -185,13 +200,13 @@ impl Program {
         iterations: usize,
         settings: Settings,
     ) -> PyResult<Orbit> {
-        let members = self.members(&parameters, &starts, &modes)?;
+        let members = sound(|| self.members(&parameters, &starts, &modes))?;
         let search = Search {
             period,
             tolerance,
             iterations,
         };
-        orbit::find(py, &self.blueprint, &members, &search, &settings)
+        orbit::find(py, &self.blueprint, members, search, settings)
     }
 
     /// The largest exponents of every member.
@@ -209,7 +224,7 @@ impl Program {
         settings: Settings,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Exponents> {
-        let members = self.members(&parameters, &starts, &modes)?;
+        let members = sound(|| self.members(&parameters, &starts, &modes))?;
         let progress = Progress {
             call: progress,
             what: "exponents",
@@ -219,10 +234,10 @@ impl Program {
         exponents::run(
             py,
             &self.blueprint,
-            &members,
+            members,
             length,
             count,
-            &settings,
+            settings,
             &progress,
         )
     }
