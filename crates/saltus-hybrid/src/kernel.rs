@@ -183,8 +183,8 @@ impl Kernel {
         }
     }
 
-    /// Whether guards surely stay on their right sides in the step of a lane, by more than the drive moves them when
-    /// it is set to its exact values at a sample.
+    /// Whether guards are on their right sides at the end of the step of a lane, by more than the drive moves them
+    /// when it is set to its exact values at a sample.
     pub(crate) fn is_clear<'a>(
         &self,
         slot: usize,
@@ -192,12 +192,14 @@ impl Kernel {
     ) -> bool {
         watches.all(|(_, _, watch)| {
             let GuardRange { low, high, .. } = &self.guards[watch.guard];
-            let (low, high) = if watch.sign > 0.0 {
-                (low.0[slot], high.0[slot])
-            } else {
-                (-high.0[slot], -low.0[slot])
-            };
-            low > self.near * high
+            let near = self.near * low.0[slot].abs().max(high.0[slot].abs());
+            let surely = if watch.sign > 0.0 { low } else { high };
+            surely.0[slot] * watch.sign > near || {
+                let length = self.lengths.0[slot];
+                let power = self.series.of(watch.guard_slot(&self.structure));
+                let end = power.rev().fold(0.0, |sum, a| sum * length + a.0[slot]);
+                end * watch.sign > near
+            }
         })
     }
 

@@ -92,20 +92,10 @@ fn a_bounce_may_wander_through_the_sampling_instant() {
 }
 
 #[test]
-fn where_a_branch_is_lost_at_the_sampling_instant_the_end_says_so() {
-    // A bounce that comes too early would have to begin below the table.
-    let branch = through_the_instant(0.8);
-    assert_eq!(branch.ends, [End::SamplingInstant, End::RangeEnd]);
-    let end = branch.ends[0].to_string();
-    assert!(end.contains("another phase of the drive"), "{end}");
-    assert!((branch.points[0].parameter - 0.7).abs() < 1e-6);
-}
-
-#[test]
-#[ignore = "from the side where the bounce comes after the sampling instant the other side is not found"]
 fn a_bounce_may_wander_through_the_sampling_instant_the_other_way() {
     let branch = through_the_instant(0.8);
     assert_eq!(branch.ends, [End::RangeEnd, End::RangeEnd]);
+    assert!(branch.specials.is_empty());
 }
 
 #[test]
