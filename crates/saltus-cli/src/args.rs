@@ -82,7 +82,7 @@ pub(crate) struct OutputArgs {
     /// Print one JSON document to standard output and nothing else
     #[arg(long)]
     pub(crate) json: bool,
-    /// Folder for data, figure and resolved study file; made if it is not there
+    /// Folder for data, figure and resolved study file; made if it is not there, an earlier result in it is replaced
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Write each table as a Parquet file too, beside the CSV (needs a program built with them)

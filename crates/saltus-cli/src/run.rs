@@ -172,11 +172,21 @@ fn answer(request: &Request, study: &Study, how: &How) -> Result<(), Ending> {
     // refused before a long computation, but staged after it
     out.map_or(Ok(()), |out| destination.try_out(out))?;
     let mut answer = request.ask(study, &context)?;
+    let told = |answer: &dyn Answer| tell(how.output.json, how.output.quiet, answer);
     if let Some(out) = out {
-        destination.store(out, answer.as_ref())?;
-        answer.stored()?;
+        match destination.store(out, answer.as_ref()) {
+            Ok(()) => answer.stored()?,
+            Err(failure @ (Failure::Interrupted | Failure::Suspended { .. })) => {
+                return Err(failure.into());
+            }
+            Err(failure) => {
+                // of what could not be written the reader has this
+                let _ = told(answer.as_ref());
+                return Err(failure.into());
+            }
+        }
     }
-    match tell(how.output.json, how.output.quiet, answer.as_ref()) {
+    match told(answer.as_ref()) {
         // nowhere else is it kept
         Err(Ending::Output(why)) if out.is_none() => {
             let folder = destination.keep(answer.as_ref()).ok();

@@ -53,11 +53,14 @@ impl Origin {
     /// The orbit `label` of the result in `folder`.
     pub(super) fn read(folder: &Path, label: &str) -> Result<Self, Failure> {
         let path = folder.join(DOCUMENT);
-        let text = ordinary::read(&path, LARGEST).map_err(|source| ResultsError::Io {
-            action: "read",
-            path: path.clone(),
-            source,
-        })?;
+        let bytes = |path: &Path, most| {
+            ordinary::read(path, most).map_err(|source| ResultsError::Io {
+                action: "read",
+                path: path.to_path_buf(),
+                source,
+            })
+        };
+        let text = bytes(&path, LARGEST)?;
         let damaged = |why: &dyn std::fmt::Display| {
             Failure::work(
                 format!("`{}` is damaged: {why}", shown::path(&path)),
@@ -65,7 +68,9 @@ impl Origin {
             )
         };
         let document: Document = serde_json::from_slice(&text).map_err(|e| damaged(&e))?;
-        let study = saltus_config::load(folder.join("study.toml"), &[])?;
+        let file = folder.join("study.toml");
+        let study = bytes(&file, ordinary::TEXT)?;
+        let study = saltus_config::read(&file.display().to_string(), &study[..], &[])?;
         let known = document.special_points.as_slice();
         let chosen = known.iter().find(|special| special.label == label);
         let Some(chosen) = chosen else {
