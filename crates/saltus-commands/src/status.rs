@@ -11,7 +11,16 @@ pub(crate) fn text(status: &Status, omega: Option<f64>) -> String {
     };
     match *status {
         Status::Completed => "completed".to_owned(),
-        Status::Chattering { time, count } => format!(
+        Status::Chattering {
+            time,
+            count,
+            at_once: true,
+        } => format!(
+            "chattering: {count} take-offs and touch-downs at one instant{}: a body rests where its contact \
+             switches, and the contact law has no mode for that",
+            by(time)
+        ),
+        Status::Chattering { time, count, .. } => format!(
             "chattering: {count} take-offs and touch-downs within one forcing period{}; \
              if they are real, allow more by solver.max_switches",
             by(time)

@@ -70,29 +70,29 @@ impl<S: Simd> Arith for Wide<S> {
     type Cell = Pack;
     type V = f64x8<S>;
     const WIDE: bool = size_of::<S::f64s>() >= 32;
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn load(self, cell: &Pack) -> f64x8<S> {
         f64x8::load_array_ref(self.0, &cell.0)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn store(self, value: f64x8<S>) -> Pack {
         let mut out = Pack::default();
         value.store_slice(&mut out.0);
         out
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn splat(self, value: f64) -> f64x8<S> {
         f64x8::splat(self.0, value)
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn add(self, a: f64x8<S>, b: f64x8<S>) -> f64x8<S> {
         a + b
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn mul(self, a: f64x8<S>, b: f64x8<S>) -> f64x8<S> {
         a * b
     }
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn mul_add(self, a: f64x8<S>, b: f64x8<S>, c: f64x8<S>) -> f64x8<S> {
         a.mul_add(b, c)
     }

@@ -58,7 +58,7 @@ pub(crate) fn products<A: Arith>(
     in_blocks!(out.len(), at => product_block(arith, orders, [a + at, b + at], k, &mut out[at..]));
 }
 
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn product_block<A: Arith, const W: usize>(
     arith: A,
     orders: Orders<'_, A::Cell>,
@@ -91,7 +91,7 @@ pub(crate) fn squares<A: Arith>(
     in_blocks!(out.len(), at => square_block(arith, orders, a + at, k, &mut out[at..]));
 }
 
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn square_block<A: Arith, const W: usize>(
     arith: A,
     orders: Orders<'_, A::Cell>,
@@ -143,7 +143,7 @@ pub(crate) fn squares_and_products<A: Arith>(
     ));
 }
 
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn square_and_product_block<A: Arith, const W: usize>(
     arith: A,
     orders: Orders<'_, A::Cell>,

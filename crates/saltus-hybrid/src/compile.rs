@@ -101,7 +101,10 @@ pub(crate) struct Watch {
     pub(crate) sign: f64,
     pub(crate) to: usize,
     pub(crate) resets: Vec<(usize, usize)>,
+    /// Guards that are zero after it by construction.
     pub(crate) vanishing: Vec<(usize, u8)>,
+    /// Whether it may move its own guard, by a reset or by the change of mode.
+    pub(crate) moves: bool,
 }
 
 impl Watch {
@@ -173,6 +176,8 @@ pub(crate) struct Parts<'a> {
     pub(crate) ops: &'a [RawOp],
     pub(crate) derivative: &'a [Option<Node>],
     pub(crate) units: &'a [Vec<Vec<Transition>>],
+    /// Coefficients that depend on modes, each with its unit and the value for each mode.
+    pub(crate) switched: &'a [(usize, usize, Vec<f64>)],
 }
 
 impl Structure {
@@ -195,12 +200,16 @@ impl Structure {
             let node = node.ok_or(BuildError::NoDerivative(i))?;
             out.derivative.push(flat.index(node)?);
         }
-        for modes in parts.units {
+        for (unit, modes) in parts.units.iter().enumerate() {
             let mut resolved = Vec::new();
+            let switches = |coefficients: std::ops::RangeInclusive<usize>| {
+                let mut switched = parts.switched.iter();
+                switched.any(|&(at, by, _)| by == unit && coefficients.contains(&at))
+            };
             for transitions in modes {
                 let watches: Result<Vec<_>, _> = transitions
                     .iter()
-                    .map(|t| out.resolve(&flat, t, modes.len()))
+                    .map(|t| out.resolve(&flat, t, modes.len(), switches))
                     .collect();
                 resolved.push(watches?);
             }
@@ -252,12 +261,13 @@ impl Structure {
         flat: &Flattener,
         t: &Transition,
         modes: usize,
+        switches: impl Fn(std::ops::RangeInclusive<usize>) -> bool,
     ) -> Result<Watch, BuildError> {
         if t.to >= modes {
             return Err(BuildError::Undefined(format!("mode {}", t.to)));
         }
         let guard = self.guard(flat, t.guard)?;
-        let mut vanishing = vec![(guard, 1)];
+        let mut vanishing = Vec::new();
         for &(node, multiplicity) in &t.vanishing {
             vanishing.push((self.guard(flat, node)?, multiplicity));
         }
@@ -265,10 +275,12 @@ impl Structure {
         for &(state, value) in &t.resets {
             resets.push((flat.index(Node::State(state))?, flat.index(value)?));
         }
+        let reset = |state| resets.iter().any(|&(to, _)| to == state);
         Ok(Watch {
             guard,
             sign: t.sign,
             to: t.to,
+            moves: flat.depends(self.guards[guard], reset, switches),
             resets,
             vanishing,
         })

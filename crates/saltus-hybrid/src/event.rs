@@ -1,15 +1,21 @@
-//! Which switch comes next: the rules of zeros, shared by all steppers.
+//! Which switch comes next: the rules of events, shared by all steppers.
 //!
-//! A step is half open, (t0, t1]. A guard that is zero at t0 is inactive until it leaves zero; which
-//! way it leaves is read from its first nonzero derivative. A guard already on the wrong side fires
-//! at once, so that nobody falls for ever because a root sat at the start of a step.
+//! A step is half open, (t0, t1]. At its start each guard in force is on its right side, zero, or beyond.
+//! Zero is what rounding cannot tell from it ([`Jets`]); the guard is then inactive until it leaves zero,
+//! and its first nonzero derivative says to which side. A guard that falls from zero, or lies beyond,
+//! fires at once, so that nobody falls for ever because a root sat at the start of a step. One that is
+//! beyond and does not go further is held instead where firing would lead to no mode that lasts: it is
+//! armed again when it is back on its right side, and fires if it turns away before.
 
 use crate::compile::{Structure, Watch};
+use crate::jets::{Jets, Side};
 use crate::polynomial::{BernsteinTable, MAX_DEGREE, first_descent};
-use crate::system::Mode;
+use crate::system::{Evaluator, Mode, System};
 
-/// A guard counts as having left zero when it exceeds this part of its own Taylor terms; below zero
-/// by less, it counts as zero.
+/// A coefficient is worth a look at its terms if it is below this part of the largest in the step.
+const SUSPICIOUS: f64 = 1e-9;
+
+/// A guard counts as having left zero when it exceeds this part of its own Taylor terms.
 const LEFT_ZERO: f64 = 1e-12;
 
 /// What a stepper must know of one trajectory to watch its guards.
@@ -19,6 +25,8 @@ pub(crate) struct Guarded {
     pub(crate) modes: Vec<Mode>,
     /// Multiplicity of each guard's zero at the present point; 0 if it is not zero.
     zero: Vec<u8>,
+    /// Transitions whose guard is beyond zero and held: unit and place in its mode.
+    held: Vec<(usize, usize)>,
 }
 
 /// The next switch within a step.
@@ -29,8 +37,29 @@ pub(crate) struct Firing {
     pub(crate) unit: usize,
     /// Index among the transitions of the unit's mode.
     pub(crate) watch: usize,
-    /// Whether the guard is zero there; not if it was on the wrong side already.
-    pub(crate) on_zero: bool,
+    pub(crate) cause: Cause,
+}
+
+/// Why a transition fires: what its neighbours' switch follows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Cause {
+    /// Its guard falls through zero.
+    Crossing,
+    /// Its guard falls from a zero of higher multiplicity, or was beyond already: it fires with whatever
+    /// brought it there.
+    AtOnce,
+    /// Its guard, held beyond zero, turned away.
+    Turning,
+}
+
+/// What happens in a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Coming {
+    /// The switch that ends it.
+    pub(crate) firing: Option<Firing>,
+    /// Fraction of the step after which to look again; that of the switch if there is one.
+    pub(crate) until: f64,
+    pub(crate) touches: Touches,
 }
 
 /// Tangencies met on the way: how many, the guard and the place of the last.
@@ -41,22 +70,126 @@ pub(crate) struct Touches {
     pub(crate) theta: f64,
 }
 
+/// A point on the way, as the rules see it.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Spot {
+    pub(crate) x: Vec<f64>,
+    /// How large each state has been on the way.
+    pub(crate) sizes: Vec<f64>,
+}
+
+/// Evaluates guards and resets at points, for one trajectory.
+pub(crate) struct Judge {
+    pub(crate) evaluator: Evaluator,
+    base: System,
+    /// Made when it is first needed: most trajectories never ask.
+    jets: Option<Box<Jets>>,
+    /// Error of the solution, relative to the terms of a guard.
+    close: f64,
+}
+
+impl Judge {
+    /// For a system, its tangents aside, and a solution of this relative error.
+    pub(crate) fn new(system: &System, close: f64) -> Self {
+        let base = system.base();
+        Self {
+            evaluator: Evaluator::new(&base),
+            base,
+            jets: None,
+            close,
+        }
+    }
+
+    fn sides(&mut self, guarded: &Guarded, spot: &Spot) -> Vec<Side> {
+        let jets = self
+            .jets
+            .get_or_insert_with(|| Box::new(Jets::new(&self.base)));
+        jets.sides(
+            &guarded.modes,
+            &spot.x,
+            &spot.sizes,
+            &guarded.zero,
+            self.close,
+        )
+    }
+
+    /// Carries out the resets of a transition.
+    pub(crate) fn reset(&mut self, modes: &[Mode], watch: &Watch, x: &mut [f64]) {
+        if !watch.resets.is_empty() {
+            let nodes = self.evaluator.nodes(modes, x);
+            for &(state, node) in &watch.resets {
+                x[state] = nodes[node];
+            }
+        }
+    }
+
+    /// Whether firing leads, by whatever fires with it, to modes that last.
+    fn settles(&mut self, guarded: &Guarded, spot: &Spot, first: Firing) -> bool {
+        let structure = std::sync::Arc::clone(&self.base.structure);
+        let modes: usize = structure.units.iter().map(Vec::len).sum();
+        let (mut ghost, mut spot) = (guarded.clone(), spot.clone());
+        let mut moved = Vec::new();
+        let mut next = Some(first);
+        for _ in 0..=2 * modes {
+            let Some(firing) = next else { return true };
+            let watch = ghost.watch(&structure, &firing);
+            self.reset(&ghost.modes, watch, &mut spot.x);
+            ghost.fire(&structure, &firing);
+            moved.push(firing.unit);
+            let sides = self.sides(&ghost, &spot);
+            next = ghost.watches(&structure).find_map(|(unit, index, watch)| {
+                let side = sides[watch.guard].seen(watch.sign);
+                let other = side.may_be_held() && !moved.contains(&unit);
+                (side.ends() && !other).then(|| Firing::at_once(unit, index, side))
+            });
+        }
+        false
+    }
+}
+
+/// What a guard does just after a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Course {
+    /// It is on its right side, or leaves a zero of this multiplicity to it.
+    Right(u8),
+    /// It stays zero.
+    Never,
+    Held,
+    Fires(Firing),
+}
+
+impl Firing {
+    fn at_once(unit: usize, watch: usize, side: Side) -> Self {
+        Self {
+            theta: 0.0,
+            unit,
+            watch,
+            cause: if side.zeros == 1 {
+                Cause::Crossing
+            } else {
+                Cause::AtOnce
+            },
+        }
+    }
+}
+
 impl Guarded {
     pub(crate) fn new(structure: &Structure, modes: &[Mode]) -> Self {
         Self {
             modes: modes.to_vec(),
             zero: vec![0; structure.guards.len()],
+            held: Vec::new(),
         }
     }
 
-    /// Whether a guard must be treated as zero at the start of this step.
+    /// Whether the polynomial of a guard does not tell its side at the start of this step.
     pub(crate) fn is_zero(&self, guard: usize) -> bool {
         self.zero[guard] > 0
     }
 
-    /// Whether any must.
-    pub(crate) fn any_zero(&self) -> bool {
-        self.zero.iter().any(|&zero| zero > 0)
+    /// Whether a look is due at every step.
+    pub(crate) fn is_wary(&self) -> bool {
+        !self.held.is_empty() || self.zero.iter().any(|&zero| zero > 0)
     }
 
     /// The transitions now in force, with their unit and place.
@@ -77,53 +210,122 @@ impl Guarded {
             })
     }
 
+    /// The transition that fires.
+    pub(crate) fn watch<'a>(&self, structure: &'a Structure, firing: &Firing) -> &'a Watch {
+        &structure.units[firing.unit][self.modes[firing.unit]][firing.watch]
+    }
+
     /// The earliest switch in this step. `poly(guard, out)` writes the guard's power coefficients in
-    /// the step fraction and says whether it could change sign at all.
+    /// the step fraction and says whether it could change sign at all; `spot` is the step's start.
     pub(crate) fn next(
-        &self,
+        &mut self,
         structure: &Structure,
         table: &BernsteinTable,
         degree: usize,
-        mut poly: impl FnMut(&Watch, &mut [f64]) -> bool,
-    ) -> (Option<Firing>, Touches) {
-        let mut best: Option<Firing> = None;
-        let mut touches = Touches::default();
+        judge: &mut Judge,
+        mut poly: impl FnMut(&Self, &Watch, &mut [f64]) -> bool,
+        spot: impl Fn() -> Spot,
+    ) -> Coming {
+        let mut out = Coming {
+            firing: None,
+            until: 1.0,
+            touches: Touches::default(),
+        };
         let mut buffer = [0.0; MAX_DEGREE + 1];
         let power = &mut buffer[..=degree];
-        for (unit, index, watch) in self.watches(structure) {
-            if !poly(watch, power) {
-                continue;
-            }
-            power.iter_mut().for_each(|a| *a *= watch.sign);
-            let multiplicity = self.zero[watch.guard].max(u8::from(just_below_zero(power)));
-            let on_zero = power[0] == 0.0 || multiplicity > 0;
-            let theta = match leaves_zero(power, multiplicity) {
-                Start::Wrong => Some(0.0),
-                Start::Never => None,
-                Start::Right => {
-                    let descent = first_descent(power, table);
-                    if descent.touches > 0 {
-                        touches = Touches {
-                            count: descent.touches,
-                            unit,
-                            theta: descent.touch_at,
-                        };
-                    }
-                    descent.at
+        let mut seen: Option<(Spot, Vec<Side>)> = None;
+        for unit in 0..structure.units.len() {
+            for (index, watch) in structure.units[unit][self.modes[unit]].iter().enumerate() {
+                if !poly(self, watch, power) {
+                    continue;
                 }
-            };
-            if let Some(theta) = theta.filter(|&t| best.is_none_or(|b| t < b.theta)) {
-                best = Some(Firing {
-                    theta,
-                    unit,
-                    watch: index,
-                    on_zero: on_zero || theta > 0.0,
-                });
+                power.iter_mut().for_each(|a| *a *= watch.sign);
+                let course = match self.plain_course(watch.guard, power) {
+                    Some(zeros) => self.armed(unit, index, zeros),
+                    None => {
+                        let (spot, sides) = seen.get_or_insert_with(|| {
+                            let spot = spot();
+                            let sides = judge.sides(self, &spot);
+                            (spot, sides)
+                        });
+                        let side = sides[watch.guard].seen(watch.sign);
+                        self.course(unit, index, watch, side, spot, judge)
+                    }
+                };
+                match course {
+                    Course::Never => {}
+                    Course::Fires(firing) => out.take(firing),
+                    Course::Held => out.follow_held(unit, index, power, table),
+                    Course::Right(zeros) => out.follow(unit, index, zeros.into(), power, table),
+                }
             }
         }
-        // A touch beyond the switch will be met again in the next step.
-        touches.count *= u32::from(best.is_none_or(|b| touches.theta < b.theta));
-        (best, touches)
+        // A touch beyond the end will be met again in the next step.
+        out.touches.count *= u32::from(out.touches.theta < out.until || out.until == 1.0);
+        out
+    }
+
+    /// The switch that is due at this very point, if there is one.
+    pub(crate) fn due(
+        &mut self,
+        structure: &Structure,
+        judge: &mut Judge,
+        spot: &Spot,
+    ) -> Option<Firing> {
+        let sides = judge.sides(self, spot);
+        for unit in 0..structure.units.len() {
+            for (index, watch) in structure.units[unit][self.modes[unit]].iter().enumerate() {
+                let side = sides[watch.guard].seen(watch.sign);
+                if let Course::Fires(firing) = self.course(unit, index, watch, side, spot, judge) {
+                    return Some(firing);
+                }
+            }
+        }
+        None
+    }
+
+    /// Multiplicity of the zero that a guard leaves to its right side, if its polynomial tells without doubt.
+    fn plain_course(&self, guard: usize, power: &[f64]) -> Option<u8> {
+        let size = power.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+        let zeros = self.zero[guard];
+        let first = power.get(usize::from(zeros))?;
+        (*first > SUSPICIOUS * size).then_some(zeros)
+    }
+
+    /// A guard on its right side is not held any more.
+    fn armed(&mut self, unit: usize, index: usize, zeros: u8) -> Course {
+        self.held.retain(|&held| held != (unit, index));
+        Course::Right(zeros)
+    }
+
+    /// What a transition does, by the side that its guard is on.
+    fn course(
+        &mut self,
+        unit: usize,
+        index: usize,
+        watch: &Watch,
+        side: Side,
+        spot: &Spot,
+        judge: &mut Judge,
+    ) -> Course {
+        if !side.ends() {
+            self.zero[watch.guard] = side.zeros;
+            return match side.sign {
+                0.0 => Course::Never,
+                _ => self.armed(unit, index, side.zeros),
+            };
+        }
+        let firing = Firing::at_once(unit, index, side);
+        if !side.may_be_held() {
+            return Course::Fires(firing);
+        }
+        if !self.held.contains(&(unit, index)) {
+            if !side.close && judge.settles(self, spot, firing) {
+                return Course::Fires(firing);
+            }
+            self.held.push((unit, index));
+        }
+        Course::Held
     }
 
     /// Guards that were zero at the step's start are watched again once they have left zero:
@@ -141,26 +343,95 @@ impl Guarded {
         }
     }
 
-    /// Carries out a switch of the modes, and remembers which guards are zero now.
+    /// Carries out a switch of the modes, and remembers which guards are zero now: those that are by
+    /// construction, and its own if neither a reset nor the change of mode moves it.
     pub(crate) fn fire(&mut self, structure: &Structure, firing: &Firing) {
         let unit = firing.unit;
-        let watch = &structure.units[unit][self.modes[unit]][firing.watch];
-        for &(guard, multiplicity) in &watch.vanishing {
-            let own = guard == watch.guard;
-            self.zero[guard] = match (firing.on_zero, own) {
-                (true, _) => multiplicity,
-                (false, true) => 0,
-                (false, false) => multiplicity.min(1),
-            };
+        let watch = self.watch(structure, firing);
+        self.zero.fill(0);
+        if firing.cause == Cause::Crossing {
+            self.zero[watch.guard] = u8::from(!watch.moves);
+            for &(guard, multiplicity) in &watch.vanishing {
+                self.zero[guard] = multiplicity;
+            }
         }
+        self.held.retain(|&(held, _)| held != unit);
         self.modes[unit] = watch.to;
     }
 }
 
-enum Start {
-    Right,
-    Wrong,
-    Never,
+impl Coming {
+    fn take(&mut self, firing: Firing) {
+        if firing.theta < self.until || self.firing.is_none() && firing.theta == self.until {
+            self.until = firing.theta;
+            self.firing = Some(firing);
+        }
+    }
+
+    /// A guard that starts on its right side.
+    fn follow(
+        &mut self,
+        unit: usize,
+        watch: usize,
+        zeros: usize,
+        power: &mut [f64],
+        table: &BernsteinTable,
+    ) {
+        let Some(power) = without_zeros(power, zeros) else {
+            return;
+        };
+        let descent = first_descent(power, table);
+        if descent.touches > 0 {
+            self.touches = Touches {
+                count: descent.touches,
+                unit,
+                theta: descent.touch_at,
+            };
+        }
+        if let Some(theta) = descent.at {
+            self.take(Firing {
+                theta,
+                unit,
+                watch,
+                cause: Cause::Crossing,
+            });
+        }
+    }
+
+    /// A guard that starts beyond zero, on its way back: it is looked at again at zero, unless it turns
+    /// away before.
+    fn follow_held(
+        &mut self,
+        unit: usize,
+        watch: usize,
+        power: &mut [f64],
+        table: &BernsteinTable,
+    ) {
+        let mut rate = [0.0; MAX_DEGREE + 1];
+        let rate = &mut rate[..power.len()];
+        for (k, a) in power.iter().enumerate().skip(1) {
+            rate[k - 1] = k as f64 * a;
+        }
+        let size = rate.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
+        let zeros = rate.iter().take_while(|a| a.abs() <= LEFT_ZERO * size);
+        let zeros = zeros.count();
+        power.iter_mut().for_each(|a| *a = -*a);
+        let back = first_descent(power, table).at.unwrap_or(1.0);
+        let turn = without_zeros(rate, zeros).and_then(|rate| first_descent(rate, table).at);
+        match turn.filter(|&turn| turn < back) {
+            Some(theta) => self.take(Firing {
+                theta,
+                unit,
+                watch,
+                cause: Cause::Turning,
+            }),
+            None if back < self.until => {
+                self.until = back;
+                self.firing = None;
+            }
+            None => {}
+        }
+    }
 }
 
 /// Whether a zero lies behind at the end of the step: the guard exceeds its rounding, and the residue
@@ -172,24 +443,12 @@ fn has_left_zero(power: &[f64], multiplicity: u8) -> bool {
     rest.iter().sum::<f64>().abs() > (LEFT_ZERO * size).max(2.0 * residue)
 }
 
-/// Whether a guard is on the wrong side by no more than rounding: it reached zero at the end of the
-/// last step, together with another one or with the sampling instant.
-fn just_below_zero(power: &[f64]) -> bool {
-    let size = power.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
-    power[0] < 0.0 && -power[0] <= LEFT_ZERO * size
-}
-
-/// Which side a guard is on just after the start; coefficients known to vanish are made zero, and
-/// the polynomial is divided by the power of x they leave, which moves none of its other roots.
-fn leaves_zero(power: &mut [f64], multiplicity: u8) -> Start {
-    let known = usize::from(multiplicity).min(power.len());
-    power[..known].fill(0.0);
-    let Some(first) = power.iter().position(|&a| a != 0.0) else {
-        return Start::Never;
-    };
-    if power[first] < 0.0 {
-        return Start::Wrong;
-    }
+/// The polynomial divided by the power of x that its vanishing coefficients leave, which moves none of its
+/// other roots; `None` if nothing is left.
+fn without_zeros(power: &mut [f64], zeros: usize) -> Option<&mut [f64]> {
+    let zeros = zeros.min(power.len());
+    power[..zeros].fill(0.0);
+    let first = power.iter().position(|&a| a != 0.0)?;
     power.rotate_left(first);
-    Start::Right
+    Some(power)
 }

@@ -246,8 +246,33 @@ impl Flattener {
 
     /// For each operation whether these nodes depend on it.
     pub(crate) fn needed_by(&self, guards: &[usize]) -> Vec<bool> {
+        self.cone(guards).0
+    }
+
+    /// Whether a node may change when a unit switches: it depends on one of these states or coefficients.
+    pub(crate) fn depends(
+        &self,
+        node: usize,
+        states: impl Fn(usize) -> bool,
+        coefficients: impl Fn(std::ops::RangeInclusive<usize>) -> bool,
+    ) -> bool {
+        let (needed, nodes) = self.cone(&[node]);
+        let mut ops = needed.iter().zip(&self.ops).filter(|(needed, _)| **needed);
+        (0..self.states).any(|state| nodes[state] && states(state))
+            || ops.any(|(_, op)| match &op.kind {
+                Kind::Linear { constant, terms } => {
+                    coefficients(*constant..=constant + terms.len())
+                }
+                // It depends on derivatives, so on everything.
+                Kind::Adiabatic { .. } => true,
+                _ => false,
+            })
+    }
+
+    /// Operations and nodes that these nodes depend on.
+    fn cone(&self, of: &[usize]) -> (Vec<bool>, Vec<bool>) {
         let mut nodes = vec![false; self.nodes];
-        guards.iter().for_each(|&g| nodes[g] = true);
+        of.iter().for_each(|&node| nodes[node] = true);
         let mut needed = vec![false; self.ops.len()];
         for (needed, op) in needed.iter_mut().zip(&self.ops).rev() {
             *needed = nodes[op.out..op.out + op.count].contains(&true);
@@ -265,6 +290,6 @@ impl Flattener {
                 }
             }
         }
-        needed
+        (needed, nodes)
     }
 }

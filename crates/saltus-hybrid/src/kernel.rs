@@ -7,10 +7,11 @@ use std::sync::Arc;
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
 
 use crate::arith::{Arith, LANES, Pack, Wide};
-use crate::compile::Structure;
-use crate::event::Guarded;
+use crate::compile::{Structure, Watch};
+use crate::event::{Guarded, Spot};
 use crate::polynomial::{BernsteinTable, HEAD};
 use crate::series::{Series, expand};
+use crate::sizes::Sizes;
 use crate::special::Shape;
 use crate::system::System;
 
@@ -24,15 +25,18 @@ pub(crate) struct Kernel {
     /// Length of the step of each lane.
     pub(crate) lengths: Pack,
     tolerance: f64,
+    /// A guard is near zero if its least value in a step is below this part of its largest.
+    near: f64,
     level: Level,
     /// Straight-line code for the program, if there is.
     shape: Option<Shape>,
     stream: Vec<Pack>,
     series: Series<Pack>,
-    /// Largest last, last-but-one and first coefficient of each lane.
-    tail: [Pack; 3],
-    /// The same of the tangents, if there are any.
-    tangent_tail: Option<[Pack; 3]>,
+    sizes: Sizes,
+    /// Of each lane the largest last and last-but-one coefficient, in units of the size of the state or of the
+    /// largest tangent; NaN if any is not finite.
+    tail: [Pack; 2],
+    tangent_tail: Option<[Pack; 2]>,
     /// NaN where the new state is not finite, else 0.
     pub(crate) overflow: Pack,
     /// States at the start of the step.
@@ -74,11 +78,13 @@ impl Kernel {
             left: Pack::default(),
             lengths: Pack::default(),
             tolerance,
+            near: (100.0 * tolerance).clamp(1e-6, 0.1),
             level,
             shape: Shape::of(structure),
             stream: vec![Pack::default(); structure.stream.len()],
             series: Series::new(structure, order),
-            tail: [Pack::default(); 3],
+            sizes: Sizes::new(structure.controlled),
+            tail: [Pack::default(); 2],
             tangent_tail: None,
             overflow: Pack::default(),
             start: vec![Pack::default(); structure.states],
@@ -94,6 +100,7 @@ impl Kernel {
         self.series.cells(nodes).for_each(|c| c.0[slot] = 0.0);
         self.left.0[slot] = 0.0;
         self.wary[slot] = false;
+        self.sizes.begin(slot, &[]);
         for guard in &mut self.guards {
             guard.floor.0[slot] = f64::NEG_INFINITY;
             guard.ceiling.0[slot] = f64::INFINITY;
@@ -128,13 +135,24 @@ impl Kernel {
                 guard.ceiling.0[slot] = 0.0;
             }
         }
-        self.wary[slot] = always || guarded.any_zero();
+        self.wary[slot] = always || guarded.is_wary();
     }
 
     pub(crate) fn set_state(&mut self, slot: usize, x: &[f64]) {
         for (state, &value) in x.iter().enumerate() {
             self.series.value(self.structure.state_slots[state]).0[slot] = value;
         }
+    }
+
+    /// Begins a leg at the state `x`: sizes of its states are not known yet.
+    pub(crate) fn begin(&mut self, slot: usize, system: &System, x: &[f64]) {
+        self.set_state(slot, x);
+        self.sizes.begin(slot, &system.scales);
+    }
+
+    /// Sizes of the states of a lane, and how large they have been.
+    pub(crate) fn sizes(&mut self) -> &mut Sizes {
+        &mut self.sizes
     }
 
     pub(crate) fn state(&self, slot: usize, x: &mut [f64]) {
@@ -165,9 +183,39 @@ impl Kernel {
         }
     }
 
+    /// Whether guards surely stay on their right sides in the step of a lane, by more than the drive moves them when
+    /// it is set to its exact values at a sample.
+    pub(crate) fn is_clear<'a>(
+        &self,
+        slot: usize,
+        mut watches: impl Iterator<Item = (usize, usize, &'a Watch)>,
+    ) -> bool {
+        watches.all(|(_, _, watch)| {
+            let GuardRange { low, high, .. } = &self.guards[watch.guard];
+            let (low, high) = if watch.sign > 0.0 {
+                (low.0[slot], high.0[slot])
+            } else {
+                (-high.0[slot], -low.0[slot])
+            };
+            low > self.near * high
+        })
+    }
+
+    /// The start of the step of a lane.
+    pub(crate) fn spot(&self, slot: usize) -> Spot {
+        let tangents = self.structure.tangents.as_ref();
+        let states = tangents.map_or(self.structure.states, |tangents| tangents.first);
+        let mut x = vec![0.0; states];
+        self.state(slot, &mut x);
+        Spot {
+            x,
+            sizes: self.sizes.of_lane(slot),
+        }
+    }
+
     /// Whether the series of a lane is finite.
     pub(crate) fn is_finite(&self, slot: usize) -> bool {
-        let finite = |tail: &[Pack; 3]| tail.iter().map(|t| t.0[slot]).sum::<f64>().is_finite();
+        let finite = |tail: &[Pack; 2]| tail.iter().map(|t| t.0[slot]).sum::<f64>().is_finite();
         finite(&self.tail) && self.tangent_tail.as_ref().is_none_or(finite)
     }
 
@@ -207,52 +255,91 @@ impl Kernel {
     fn expand_with<S: Simd>(&mut self, arith: Wide<S>) {
         let (structure, series) = (&self.structure, &mut self.series);
         expand(arith, structure, self.shape, &self.stream, series);
-        let states = &self.structure.state_slots;
-        self.tail = self.largest(arith, &states[..self.structure.controlled]);
+        self.tail = self.tail_of_states(arith);
         let tangents = self.structure.tangents.as_ref();
-        self.tangent_tail = tangents.map(|t| self.largest(arith, &states[t.first..]));
+        self.tangent_tail = tangents.map(|t| self.tail_of_tangents(arith, t.first));
         for slot in 0..LANES {
             self.lengths.0[slot] = self.length(slot);
         }
         self.bound_guards(arith);
     }
 
-    /// Largest last, last-but-one and first coefficient at these slots.
+    /// Last and last-but-one coefficients of the states, each in units of its size.
     #[inline(always)]
-    fn largest<S: Simd>(&self, arith: Wide<S>, slots: &[usize]) -> [Pack; 3] {
-        let mut tail = [arith.splat(0.0); 3];
-        for &slot in slots {
-            for (k, tail) in [self.order, self.order - 1, 0].into_iter().zip(&mut tail) {
-                let term = arith.load(self.series.at(slot, k));
+    fn tail_of_states<S: Simd>(&mut self, arith: Wide<S>) -> [Pack; 2] {
+        let mut tail = [arith.splat(0.0); 2];
+        let mut growth = arith.splat(0.0);
+        let zero = arith.splat(0.0);
+        let sizes = self.sizes.of.iter_mut().zip(&self.structure.state_slots);
+        for (size, &slot) in sizes {
+            let unit = arith.load(&size.inverse);
+            for (k, tail) in [self.order, self.order - 1].into_iter().zip(&mut tail) {
+                let term = arith.mul(arith.load(self.series.at(slot, k)), unit);
                 // The maximum may drop a NaN; adding 0 x keeps it.
-                *tail = tail.max(term.abs()) + term * arith.splat(0.0);
+                *tail = arith.mul_add(term, zero, tail.max(term.abs()));
             }
+            let value = arith.load(self.series.at(slot, 0));
+            tail[0] = arith.mul_add(value, zero, tail[0]);
+            let largest = arith.load(&size.now).max(value.abs());
+            size.now = arith.store(largest);
+            growth = growth.max(arith.mul(largest, unit));
         }
+        self.sizes.growth = arith.store(growth);
         tail.map(|t| arith.store(t))
     }
 
-    /// Length of the step: the last two terms of the series stay below the tolerance (relative to the
-    /// largest state once that exceeds 1, and to the largest tangent), and it ends on the period's end at
-    /// the latest.
+    /// The same of the tangents, in units of the largest.
     #[inline(always)]
-    fn length(&self, slot: usize) -> f64 {
-        let p = self.order as f64;
-        let allowed = |[last, before, _]: [f64; 3], tolerance: f64| {
-            root(tolerance / last.max(f64::MIN_POSITIVE), p)
-                .min(root(tolerance / before.max(f64::MIN_POSITIVE), p - 1.0))
+    fn tail_of_tangents<S: Simd>(&self, arith: Wide<S>, first: usize) -> [Pack; 2] {
+        let mut tail = [arith.splat(0.0); 3];
+        for &slot in &self.structure.state_slots[first..] {
+            for (k, tail) in [self.order, self.order - 1, 0].into_iter().zip(&mut tail) {
+                let term = arith.load(self.series.at(slot, k));
+                *tail = arith.mul_add(term, arith.splat(0.0), tail.max(term.abs()));
+            }
+        }
+        let [last, before, size] = tail.map(|t| arith.store(t).0);
+        // Tangents that are all zero stay so.
+        let part = |of: [f64; LANES]| {
+            Pack(std::array::from_fn(|i| {
+                if size[i] == 0.0 { 0.0 } else { of[i] / size[i] }
+            }))
         };
+        [part(last), part(before)]
+    }
+
+    /// Length of the step: the last two terms of the series stay below the tolerance, in units of the size
+    /// of each state and of the largest tangent, and it ends at the next sample at the latest.
+    #[inline(always)]
+    fn length(&mut self, slot: usize) -> f64 {
         if !self.is_finite(slot) {
             return 0.0;
         }
-        let tail = self.tail.map(|t| t.0[slot]);
-        let mut length = allowed(tail, self.tolerance * tail[2].max(1.0));
-        if let Some(tangents) = &self.tangent_tail {
-            let tail = tangents.map(|t| t.0[slot]);
-            if tail[2] > 0.0 {
-                length = length.min(allowed(tail, self.tolerance * tail[2]));
-            }
+        if self.sizes.are_due(slot) {
+            self.measure(slot);
         }
-        length.min(self.left.0[slot])
+        let p = self.order as f64;
+        let allowed = |tail: &[Pack; 2]| {
+            let [last, before] = tail.map(|t| self.tolerance / t.0[slot].max(f64::MIN_POSITIVE));
+            root(last, p).min(root(before, p - 1.0))
+        };
+        let tangents = self.tangent_tail.as_ref().map_or(f64::INFINITY, allowed);
+        allowed(&self.tail).min(tangents).min(self.left.0[slot])
+    }
+
+    /// Sizes of the states of a lane that have none yet or have outgrown theirs, and its tail with these.
+    #[cold]
+    fn measure(&mut self, slot: usize) {
+        let controlled = &self.structure.state_slots[..self.structure.controlled];
+        let series = |&state: &usize| self.power(slot, state).map(f64::abs).collect();
+        let series: Vec<Vec<f64>> = controlled.iter().map(series).collect();
+        let (longest, tolerance) = (self.left.0[slot], self.tolerance);
+        self.sizes.measure(slot, longest, tolerance, &series);
+        for (k, tail) in [self.order, self.order - 1].into_iter().zip(&mut self.tail) {
+            let terms = series.iter().zip(&self.sizes.of);
+            let terms = terms.map(|(series, size)| series[k] * size.inverse.0[slot]);
+            tail.0[slot] = terms.fold(0.0, f64::max);
+        }
     }
 
     /// Range of each guard over the step: a lane whose guards keep their sign needs no root search.

@@ -1,9 +1,11 @@
 //! The bookkeeping of one trajectory, shared by all steppers: time, modes, counters, the task.
 
-use crate::event::{Firing, Guarded, Touches};
+use crate::compile::Watch;
+use crate::event::{Coming, Firing, Guarded, Judge, Spot, Touches};
+use crate::polynomial::BernsteinTable;
 use crate::run::{End, IntegrateError, Leg, Options, Sample, Status, Switch, SwitchKind, Task};
 use crate::saltation;
-use crate::system::{Evaluator, Point, System};
+use crate::system::{Point, System};
 
 /// A trajectory under way.
 pub(crate) struct Lane<T> {
@@ -15,7 +17,15 @@ pub(crate) struct Lane<T> {
     pub(crate) time: f64,
     pub(crate) period: u64,
     periods: u64,
-    evaluator: Evaluator,
+    /// Samples in each period, and how many of them lie behind in this one.
+    parts: u32,
+    part: u32,
+    judge: Judge,
+    /// Last instant with a switch: period, time, how much later each tangent column comes to it, and how many
+    /// switches it has had.
+    instant: (u64, f64),
+    later: Vec<f64>,
+    at_once: u32,
     dwell: Vec<Vec<f64>>,
     /// Since when, within the period, each unit is in its mode.
     entered: Vec<f64>,
@@ -27,6 +37,15 @@ pub(crate) struct Lane<T> {
     tangencies: u64,
 }
 
+/// Whether a step ends at a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Arrival {
+    No,
+    /// With all guards in force clearly on their right sides.
+    Clear,
+    WithGuardsNearZero,
+}
+
 /// What became of a lane after a step.
 pub(crate) enum Next {
     /// It goes on; the state may have been changed.
@@ -36,7 +55,7 @@ pub(crate) enum Next {
 }
 
 impl<T: Task> Lane<T> {
-    pub(crate) fn new(task: T, leg: &Leg) -> Result<Self, IntegrateError> {
+    pub(crate) fn new(task: T, leg: &Leg, options: &Options) -> Result<Self, IntegrateError> {
         let (got, expected) = (leg.start.x.len(), leg.system.state_len());
         if got != expected || leg.start.modes.len() != leg.system.unit_count() {
             return Err(IntegrateError::Start { got, expected });
@@ -50,7 +69,12 @@ impl<T: Task> Lane<T> {
             time: 0.0,
             period: 0,
             periods: leg.periods,
-            evaluator: Evaluator::new(&leg.system.base()),
+            parts: options.samples_per_period,
+            part: 0,
+            judge: Judge::new(&leg.system, options.method.error()),
+            instant: (0, f64::NAN),
+            later: Vec::new(),
+            at_once: 0,
             dwell: structure
                 .units
                 .iter()
@@ -70,9 +94,32 @@ impl<T: Task> Lane<T> {
         self.period as f64 * self.system.period + self.time
     }
 
-    /// Time left in the period.
+    /// Time of the next sample since the start of the period.
+    pub(crate) fn next_sample(&self) -> f64 {
+        if self.part + 1 == self.parts {
+            self.system.period
+        } else {
+            self.system.period * (f64::from(self.part + 1) / f64::from(self.parts))
+        }
+    }
+
+    /// Time left until the next sample.
     pub(crate) fn left(&self) -> f64 {
-        self.system.period - self.time
+        self.next_sample() - self.time
+    }
+
+    /// Looks for a switch in the coming step.
+    pub(crate) fn look(
+        &mut self,
+        table: &BernsteinTable,
+        degree: usize,
+        poly: impl FnMut(&Guarded, &Watch, &mut [f64]) -> bool,
+        spot: impl Fn() -> Spot,
+    ) -> Coming {
+        let structure = &self.system.structure;
+        let judge = &mut self.judge;
+        self.guarded
+            .next(structure, table, degree, judge, poly, spot)
     }
 
     /// Whether nothing is left to run.
@@ -87,6 +134,11 @@ impl<T: Task> Lane<T> {
             time: self.total_time(),
             state,
         }
+    }
+
+    /// Switches so far.
+    pub(crate) fn switches(&self) -> u64 {
+        self.switches
     }
 
     pub(crate) fn touched(&mut self, touches: Touches, length: f64) {
@@ -112,33 +164,73 @@ impl<T: Task> Lane<T> {
     }
 
     /// Books an accepted step to the finite state `x`: time, switch, sample. `x` may be changed by a
-    /// reset or by the drive's return to phase 0.
+    /// reset or by the exact values of the drive at a sample. `sizes` is how large the states have been.
     pub(crate) fn accept(
         &mut self,
         options: &Options,
         length: f64,
         firing: Option<Firing>,
-        period_ends: bool,
+        arrival: Arrival,
         x: &mut [f64],
+        sizes: impl FnOnce() -> Vec<f64>,
     ) -> Next {
         let few_steps = self.pass(options, length);
-        if period_ends {
-            self.time = self.system.period;
+        let arrives = arrival != Arrival::No;
+        if arrives {
+            self.time = self.next_sample();
         }
         if let Some(firing) = firing {
             self.switch(firing, x);
         }
+        if arrives {
+            self.set_drive(x);
+            // The sample is the state after all switches at its instant, whatever side of it rounding or the
+            // error of the solution puts them on.
+            if firing.is_some() || arrival == Arrival::WithGuardsNearZero {
+                let base = x.len().min(self.base_states());
+                let mut spot = Spot {
+                    x: x[..base].to_vec(),
+                    sizes: sizes(),
+                };
+                while self.recent_switches <= options.max_switches {
+                    let structure = &self.system.structure;
+                    let Some(due) = self.guarded.due(structure, &mut self.judge, &spot) else {
+                        break;
+                    };
+                    self.switch(due, x);
+                    spot.x.copy_from_slice(&x[..base]);
+                }
+            }
+        }
         if self.recent_switches > options.max_switches {
-            let (time, count) = (self.total_time(), self.recent_switches);
-            return Next::Over(Status::Chattering { time, count });
+            return Next::Over(self.chattering());
         }
         if !few_steps {
             return Next::Over(self.too_many_steps());
         }
-        if period_ends {
-            self.end_period(x)
-        } else {
-            Next::Go
+        if arrives { self.sample(x) } else { Next::Go }
+    }
+
+    /// States of the system without tangents.
+    fn base_states(&self) -> usize {
+        let structure = &self.system.structure;
+        let tangents = structure.tangents.as_ref();
+        tangents.map_or(structure.states, |tangents| tangents.first)
+    }
+
+    /// Exact values of the drive at the next sample: its own error does not add up, and what depends on time
+    /// alone switches at the sample it belongs to.
+    fn set_drive(&self, x: &mut [f64]) {
+        if let Some((cos, sin)) = self.system.structure.drive {
+            (x[cos], x[sin]) = phase(self.part + 1, self.parts);
+        }
+    }
+
+    fn chattering(&self) -> Status {
+        Status::Chattering {
+            time: self.total_time(),
+            count: self.recent_switches,
+            at_once: 10 * self.at_once >= 9 * self.recent_switches,
         }
     }
 
@@ -170,35 +262,38 @@ impl<T: Task> Lane<T> {
             kind,
             x,
         });
+        if self.instant != (period, time) {
+            self.instant = (period, time);
+            self.later.clear();
+            self.at_once = 0;
+        }
+        let modes = &self.guarded.modes;
         if let Some(tangents) = &structure.tangents {
             let watch = &tangents.base.units[unit][from][firing.watch];
-            let (evaluator, modes) = (&mut self.evaluator, &self.guarded.modes);
-            saltation::cross(evaluator, tangents, watch, &firing, modes, x);
-        } else if !watch.resets.is_empty() {
-            let nodes = self.evaluator.nodes(&self.guarded.modes, x);
-            for &(state, node) in &watch.resets {
-                x[state] = nodes[node];
-            }
+            let (evaluator, later) = (&mut self.judge.evaluator, &mut self.later);
+            saltation::cross(evaluator, tangents, watch, &firing, modes, x, later);
+        } else {
+            self.judge.reset(modes, watch, x);
         }
         self.guarded.fire(&structure, &firing);
         self.switches += 1;
         self.recent_switches += 1;
+        self.at_once += 1;
     }
 
-    fn end_period(&mut self, x: &mut [f64]) -> Next {
-        if let Some((cos, sin)) = self.system.structure.drive {
-            (x[cos], x[sin]) = (1.0, 0.0);
-        }
+    /// Takes a sample of `x`, and begins a new period after the last one.
+    fn sample(&mut self, x: &mut [f64]) -> Next {
         for unit in 0..self.entered.len() {
             self.leave(unit);
         }
-        self.entered.fill(0.0);
-        self.time = 0.0;
-        self.period += 1;
-        self.recent_steps = 0;
-        self.recent_switches = 0;
+        self.part += 1;
+        let (period, part, ends) = (self.period + 1, self.part, self.part == self.parts);
+        if ends {
+            self.begin_period();
+        }
         let sample = Sample {
-            period: self.period,
+            period,
+            part,
             modes: &self.guarded.modes,
             x,
             dwell: &self.dwell,
@@ -208,12 +303,23 @@ impl<T: Task> Lane<T> {
         if !columns.is_empty() {
             self.task.tangents(columns);
         }
-        self.dwell.iter_mut().for_each(|d| d.fill(0.0));
+        if ends {
+            self.dwell.iter_mut().for_each(|d| d.fill(0.0));
+        }
         if go_on && !self.is_over() {
             Next::Go
         } else {
             Next::Over(Status::Completed)
         }
+    }
+
+    fn begin_period(&mut self) {
+        self.entered.fill(0.0);
+        self.time = 0.0;
+        self.part = 0;
+        self.period += 1;
+        self.recent_steps = 0;
+        self.recent_switches = 0;
     }
 
     /// Reports the end of the leg at state `x`; the task's next one, if any, and the task.
@@ -230,5 +336,20 @@ impl<T: Task> Lane<T> {
             tangencies: self.tangencies,
         });
         (self.task, next)
+    }
+}
+
+/// Cosine and sine of 2 pi part/parts, exact where they are 0 or 1: a guard of time alone vanishes there.
+fn phase(part: u32, parts: u32) -> (f64, f64) {
+    let quarters = 4 * u64::from(part);
+    match (quarters % u64::from(parts), quarters / u64::from(parts) % 4) {
+        (0, 0) => (1.0, 0.0),
+        (0, 1) => (0.0, 1.0),
+        (0, 2) => (-1.0, 0.0),
+        (0, _) => (0.0, -1.0),
+        _ => {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(part) / f64::from(parts)).sin_cos();
+            (cos, sin)
+        }
     }
 }

@@ -9,8 +9,8 @@ use std::sync::atomic::AtomicBool;
 
 use crate::arith::Scalar;
 use crate::compile::{Structure, Watch};
-use crate::event::Firing;
-use crate::lane::{Lane, Next};
+use crate::event::{Cause, Firing, Spot};
+use crate::lane::{Arrival, Lane, Next};
 use crate::polynomial::BernsteinTable;
 use crate::run::{IntegrateError, Leg, Options, Step, Task, check_stop};
 use crate::series::{Series, expand, values};
@@ -41,9 +41,10 @@ fn run_leg<T: Task>(
 ) -> Result<(T, Option<Leg>), IntegrateError> {
     let table = BernsteinTable::new(HERMITE);
     let structure = Arc::clone(&leg.system.structure);
-    let mut lane = Lane::new(task, leg)?;
+    let mut lane = Lane::new(task, leg, options)?;
     let mut stepper = Stepper::new(&structure, leg.system.period);
     let mut x = leg.start.x.clone();
+    let mut sizes = vec![0.0_f64; x.len()];
     let mut slot = 1;
     let mut dense = Vec::new();
     if lane.is_over() {
@@ -51,28 +52,43 @@ fn run_leg<T: Task>(
     }
     loop {
         check_stop(stop)?;
-        let target = leg.system.period * f64::from(slot) / f64::from(steps_per_period);
+        let grid = leg.system.period * f64::from(slot) / f64::from(steps_per_period);
+        let target = grid.min(lane.next_sample());
         let h = target - lane.time;
+        let sized = sizes.iter_mut().zip(&x);
+        sized.for_each(|(size, x)| *size = size.max(x.abs()));
         stepper.stream = leg.system.stream(&lane.guarded.modes);
         stepper.open(&structure, &x);
         stepper.step(&structure, lane.time, h, &mut x);
         stepper.close(&structure, &x);
-        let (mut firing, touches) =
-            lane.guarded
-                .next(&structure, &table, HERMITE, |watch, power| {
-                    power.copy_from_slice(&stepper.cubic(watch.guard_slot(&structure), h));
-                    true
-                });
-        lane.touched(touches, h);
+        let coming = lane.look(
+            &table,
+            HERMITE,
+            |_, watch, power| {
+                power.copy_from_slice(&stepper.cubic(watch.guard_slot(&structure), h));
+                true
+            },
+            || stepper.spot(&structure, &sizes),
+        );
+        lane.touched(coming.touches, h);
+        let mut firing = coming.firing;
         if let Some(found) = firing {
-            let watch = &structure.units[found.unit][lane.guarded.modes[found.unit]][found.watch];
+            let watch = lane.guarded.watch(&structure, &found);
             firing = stepper.polish(&structure, watch, lane.time, h, found, &mut x);
+        } else if coming.until < 1.0 {
+            stepper.step(&structure, lane.time, coming.until * h, &mut x);
+            stepper.close(&structure, &x);
         }
         if x.iter().any(|x| !x.is_finite()) {
             let status = lane.not_finite(x);
             return Ok(lane.finish(status, &stepper.opened(&structure)));
         }
-        let length = firing.map_or(h, |f| f.theta * h);
+        let part = match (coming.firing, firing) {
+            (Some(_), None) => 1.0, // the root lies beyond the step
+            (_, Some(firing)) => firing.theta,
+            (None, None) => coming.until,
+        };
+        let length = if part < 1.0 { part * h } else { h };
         if length > 0.0 {
             if lane.wants_steps {
                 stepper.interpolate(&structure, length, &mut dense);
@@ -92,13 +108,22 @@ fn run_leg<T: Task>(
                 power.copy_from_slice(&stepper.cubic(structure.guard_slots[guard], length));
             });
         }
-        let on_grid = firing.is_none_or(|f| f.theta == 1.0);
-        let period_ends = on_grid && slot == steps_per_period;
-        match lane.accept(options, length, firing, period_ends, &mut x) {
-            Next::Over(status) => return Ok(lane.finish(status, &x)),
-            Next::Go if period_ends => slot = 1,
-            Next::Go if on_grid => slot += 1,
-            Next::Go => {}
+        let whole = part == 1.0;
+        let arrival = if whole && target == lane.next_sample() {
+            Arrival::WithGuardsNearZero
+        } else {
+            Arrival::No
+        };
+        let (period, on_grid) = (lane.period, whole && target == grid);
+        let next = lane.accept(options, length, firing, arrival, &mut x, || sizes.clone());
+        if lane.period > period {
+            sizes.fill(0.0);
+            slot = 1;
+        } else if on_grid {
+            slot += 1;
+        }
+        if let Next::Over(status) = next {
+            return Ok(lane.finish(status, &x));
         }
     }
 }
@@ -130,6 +155,18 @@ impl Stepper {
 
     fn open(&mut self, structure: &Structure, x: &[f64]) {
         linearize(structure, &self.stream, x, &mut self.start);
+    }
+
+    /// The opened point, as the rules of events see it.
+    fn spot(&self, structure: &Structure, sizes: &[f64]) -> Spot {
+        let tangents = structure.tangents.as_ref();
+        let states = tangents.map_or(structure.states, |tangents| tangents.first);
+        let mut x = self.opened(structure);
+        x.truncate(states);
+        Spot {
+            x,
+            sizes: sizes.to_vec(),
+        }
     }
 
     /// The opened point.
@@ -210,7 +247,7 @@ impl Stepper {
     ) -> Option<Firing> {
         let slot = watch.guard_slot(structure);
         let mut theta = found.theta;
-        if theta > 0.0 {
+        if theta > 0.0 && found.cause == Cause::Crossing {
             for _ in 0..20 {
                 self.step(structure, t, theta * h, x);
                 self.close(structure, x);

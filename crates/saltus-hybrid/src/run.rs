@@ -39,6 +39,15 @@ impl Method {
             order: order.clamp(8, 24),
         }
     }
+
+    /// How far a guard may be from zero by the error of the solution, relative to its terms: what adds up over
+    /// some steps, and no more than a clear distance.
+    pub(crate) fn error(self) -> f64 {
+        match self {
+            Self::Taylor { tolerance, .. } => (100.0 * tolerance).clamp(1e-12, 1e-2),
+            Self::Rk4 { .. } => 1e-9,
+        }
+    }
 }
 
 /// Which instructions the series of eight trajectories are computed with.
@@ -90,6 +99,8 @@ pub struct Options {
     pub max_steps: u32,
     /// For tests and for results that are to be the same on other machines.
     pub instructions: Instructions,
+    /// Samples in each period, equally far apart, the last at its end. Steps end on all of them.
+    pub samples_per_period: u32,
 }
 
 impl Default for Options {
@@ -100,6 +111,7 @@ impl Default for Options {
             max_switches: 100,
             max_steps: 1_000_000,
             instructions: Instructions::Best,
+            samples_per_period: 1,
         }
     }
 }
@@ -115,16 +127,18 @@ pub struct Leg {
     pub periods: u64,
 }
 
-/// The state at the end of a period, after any switch at that instant.
+/// The state at a sampling instant, as at the end of a period: after all switches at that instant.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample<'a> {
-    /// Periods completed, from 1.
+    /// The period that it belongs to, from 1; completed at its last sample.
     pub period: u64,
+    /// Which sample of the period, from 1 to [`Options::samples_per_period`].
+    pub part: u32,
     /// Mode of each unit.
     pub modes: &'a [Mode],
     /// State, drive and quadratures included.
     pub x: &'a [f64],
-    /// Time spent in each mode of each unit during this period: `dwell[unit][mode]`.
+    /// Time spent in each mode of each unit during this period so far: `dwell[unit][mode]`.
     pub dwell: &'a [Vec<f64>],
 }
 
@@ -230,12 +244,14 @@ pub enum Status {
     #[error("completed")]
     Completed,
     /// More switches in one period than allowed: they accumulate (Zeno) or the guard chatters.
-    #[error("{count} switches within one period by t = {time}: chattering; see max_switches")]
+    #[error("{}", chattering(*time, *count, *at_once))]
     Chattering {
         /// Time since the start of the run.
         time: f64,
         /// Switches in this period.
         count: u32,
+        /// Whether they follow each other at one instant: nothing moves on from there.
+        at_once: bool,
     },
     /// A state grew beyond all numbers or became NaN; the last good state is in [`End::point`].
     #[error("state {state} is not finite after t = {time}")]
@@ -255,6 +271,18 @@ pub enum Status {
         /// Steps in this period.
         count: u32,
     },
+}
+
+fn chattering(time: f64, count: u32, at_once: bool) -> String {
+    if at_once {
+        format!(
+            "{count} switches at one instant, t = {time}, and nothing moves on: either a guard is beyond zero \
+             after its own switch (let the switch move it back, or enter a mode with another guard), or the \
+             motion stays where it switches (rest, sticking, sliding), which needs a mode of its own"
+        )
+    } else {
+        format!("{count} switches within one period by t = {time}: chattering; see max_switches")
+    }
 }
 
 impl Status {
@@ -290,7 +318,7 @@ pub struct End {
 pub trait Task: Send {
     /// The first leg; `None` if there is nothing to do.
     fn begin(&mut self) -> Option<Leg>;
-    /// Called at the end of each period; return `false` to end the leg here.
+    /// Called at each sample, as at the end of each period; return `false` to end the leg here.
     fn sample(&mut self, sample: &Sample<'_>) -> bool;
     /// Called after [`Self::sample`] with the tangent columns, one after the other, if the system has
     /// any; they may be changed, such as to be kept apart from each other.
@@ -370,6 +398,9 @@ impl Options {
             Method::Rk4 {
                 steps_per_period: 0,
             } => fail("steps_per_period", 0.0, "at least one step is needed"),
+            _ if self.samples_per_period == 0 => {
+                fail("samples_per_period", 0.0, "at least one is needed")
+            }
             _ if self.max_switches == 0 => fail("max_switches", 0.0, "at least one is needed"),
             _ if self.max_steps == 0 => fail("max_steps", 0.0, "at least one is needed"),
             _ => Ok(()),

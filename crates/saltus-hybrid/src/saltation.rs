@@ -8,10 +8,11 @@
 //! ```
 //!
 //! (the saltation matrix; di Bernardo et al., Piecewise-smooth Dynamical Systems (2008), section 2.5).
-//! Where the field does not jump and nothing is reset it is the identity.
+//! Where the field does not jump and nothing is reset it is the identity. A switch that fires at once after
+//! another has the s of that one: a neighbour that comes later makes all of the chain later.
 
 use crate::compile::Watch;
-use crate::event::Firing;
+use crate::event::{Cause, Firing};
 use crate::system::{Evaluator, Mode};
 use crate::tangent::Tangents;
 
@@ -19,8 +20,13 @@ use crate::tangent::Tangents;
 /// a vanishing rate.
 const NO_JUMP: f64 = 1e-13;
 
+/// Part of a state by which it is moved for a difference: the error of central differences, its square, and
+/// rounding over it are alike.
+const DIFFERENCE: f64 = 1e-5;
+
 /// Carries out the resets of `watch`, one of the base program, on `x`, and takes its columns across.
-/// `evaluator` is the base program's, `modes` are those before.
+/// `evaluator` is the base program's, `modes` are those before. `later` is s of each column at the last
+/// switch of this instant, empty if there was none, and becomes that of this one.
 pub(crate) fn cross(
     evaluator: &mut Evaluator,
     tangents: &Tangents,
@@ -28,6 +34,7 @@ pub(crate) fn cross(
     firing: &Firing,
     modes: &[Mode],
     x: &mut [f64],
+    later: &mut Vec<f64>,
 ) {
     let base = &tangents.base;
     let guard = base.guards[watch.guard];
@@ -36,19 +43,25 @@ pub(crate) fn cross(
     let of_resets =
         |nodes: &[f64]| -> Vec<f64> { watch.resets.iter().map(|&(_, i)| nodes[i]).collect() };
 
+    later.resize(columns.len() / tangents.size.max(1), 0.0);
+    if firing.cause == Cause::Turning {
+        let all = columns.chunks_exact(tangents.size);
+        turn(evaluator, guard, modes, state, all, later, field);
+    }
     let nodes = evaluator.nodes(modes, state);
     let (before, resets) = (field(nodes), of_resets(nodes));
     let rates = evaluator.along(&before);
     let (guard_rate, reset_rates) = (rates[guard], of_resets(rates));
     let mut direction = vec![0.0; base.states];
-    let slopes: Vec<(f64, Vec<f64>)> = columns
-        .chunks_exact(tangents.size)
-        .map(|column| {
-            direction[..tangents.size].copy_from_slice(column);
-            let along = evaluator.along(&direction);
-            (along[guard], of_resets(along))
-        })
-        .collect();
+    let mut reset_slopes: Vec<Vec<f64>> = Vec::with_capacity(later.len());
+    for (column, later) in columns.chunks_exact(tangents.size).zip(later.iter_mut()) {
+        direction[..tangents.size].copy_from_slice(column);
+        let along = evaluator.along(&direction);
+        if firing.cause == Cause::Crossing {
+            *later = -along[guard] / guard_rate;
+        }
+        reset_slopes.push(of_resets(along));
+    }
 
     for (&(to, _), &value) in watch.resets.iter().zip(&resets) {
         state[to] = value;
@@ -69,20 +82,52 @@ pub(crate) fn cross(
     let jumps = jump[..tangents.size]
         .iter()
         .any(|j| j.abs() > NO_JUMP * size);
-    for (column, (guard_slope, reset_slopes)) in columns.chunks_exact_mut(tangents.size).zip(slopes)
-    {
+    let columns = columns.chunks_exact_mut(tangents.size);
+    for ((column, reset_slopes), &later) in columns.zip(reset_slopes).zip(later.iter()) {
         for (&(to, _), slope) in watch.resets.iter().zip(reset_slopes) {
             if let Some(d) = column.get_mut(to) {
                 *d = slope;
             }
         }
-        // One that was on the wrong side already switches at once, whatever its neighbours do.
-        if jumps && firing.on_zero {
-            let later = -guard_slope / guard_rate;
+        if jumps {
             column
                 .iter_mut()
                 .zip(&jump)
                 .for_each(|(d, jump)| *d += jump * later);
         }
+    }
+}
+
+/// How much later neighbours reach a place where the rate of a guard vanishes: the rate takes the part of
+/// the guard, and its derivatives are differences.
+fn turn<'a>(
+    evaluator: &mut Evaluator,
+    guard: usize,
+    modes: &[Mode],
+    state: &[f64],
+    columns: impl Iterator<Item = &'a [f64]>,
+    later: &mut [f64],
+    field: impl Fn(&[f64]) -> Vec<f64>,
+) {
+    let mut rate_at = |x: &[f64]| {
+        let flow = field(evaluator.nodes(modes, x));
+        (evaluator.along(&flow)[guard], flow)
+    };
+    let flow = rate_at(state).1;
+    let largest = |x: &[f64]| x.iter().fold(f64::MIN_POSITIVE, |m: f64, a| m.max(a.abs()));
+    let size = largest(state);
+    let mut slope = |direction: &[f64]| {
+        let by = DIFFERENCE * size / largest(direction);
+        let mut moved = |by: f64| {
+            let mut x = state.to_vec();
+            let pairs = x.iter_mut().zip(direction);
+            pairs.for_each(|(x, d)| *x += by * d);
+            rate_at(&x).0
+        };
+        (moved(by) - moved(-by)) / (2.0 * by)
+    };
+    let curvature = slope(&flow);
+    for (later, column) in later.iter_mut().zip(columns) {
+        *later = -slope(column) / curvature;
     }
 }

@@ -121,7 +121,7 @@ impl<A: Arith, const M: usize> Sums<'_, A, M> {
     }
 
     /// W sums of equally many terms.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn group<const W: usize>(&mut self, group: &Group, terms: &[u16], first: bool) {
         let arith = self.arith;
         let weights = &self.stream[group.weights..][..W * (group.terms + 1)];
@@ -150,7 +150,7 @@ impl<A: Arith, const M: usize> Sums<'_, A, M> {
     }
 
     /// W rows of a matrix: each node is loaded for W multiply-adds.
-    #[inline(always)]
+    #[cfg_attr(not(unoptimised), inline(always))]
     fn rows<const W: usize>(&mut self, out: Place, weights: &[A::Cell], nodes: &[u16]) {
         let arith = self.arith;
         let mut sums = [arith.splat(0.0); W];
@@ -186,7 +186,7 @@ impl<A: Arith, const M: usize> Sums<'_, A, M> {
 }
 
 /// Order k of a program of at most M nodes.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn run<A: Arith, const M: usize>(
     arith: A,
     structure: &Structure,
@@ -267,7 +267,7 @@ fn run<A: Arith, const M: usize>(
 }
 
 /// Order k of a cubic.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn run_cubic<A: Arith>(
     arith: A,
     cubic: &Cubic,
@@ -329,7 +329,7 @@ pub(crate) fn block_rows<A: Arith>(
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn some_rows<A: Arith, const W: usize>(
     arith: A,
     weights: &[A::Cell],
@@ -414,7 +414,7 @@ fn expand_once<A: Arith>(
     }
 }
 
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn expand_in<A: Arith, const M: usize>(
     arith: A,
     structure: &Structure,

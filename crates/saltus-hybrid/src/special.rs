@@ -85,7 +85,7 @@ fn key(structure: &Structure) -> u64 {
 }
 
 /// c[i] x + sum.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn term<A: Arith, const N: usize>(
     arith: A,
     stream: &[A::Cell; N],
@@ -98,7 +98,7 @@ fn term<A: Arith, const N: usize>(
 
 /// As `cauchy::squares_and_products`, for W neighbours from slot Y and T on: `past` are the orders
 /// below the one in hand.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn squares_and_products<
     A: Arith,
     const S: usize,
@@ -148,7 +148,7 @@ fn squares_and_products<
 }
 
 /// As `cauchy::products`, for W neighbours from slot F and from slot G on.
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn products<A: Arith, const S: usize, const W: usize, const F: usize, const G: usize>(
     arith: A,
     past: &[[A::Cell; S]],
@@ -235,7 +235,7 @@ pub(super) fn expand<A: Arith>(a: A, c: &[A::Cell], kept: &mut [A::Cell]) {{
     if let [row] = rest { guards(a, c, past, row) }
 }
 
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn order<A: Arith, const FIRST: bool>(
     a: A,
     c: &[A::Cell; STREAM],
@@ -263,7 +263,7 @@ fn order<A: Arith, const FIRST: bool>(
             "\
 }
 
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn guards<A: Arith>(
     a: A,
     c: &[A::Cell; STREAM],

@@ -38,8 +38,8 @@ pub struct Transition {
     pub to: Mode,
     /// States that jump: x := value of the node, all evaluated before the first assignment.
     pub resets: Vec<(usize, Node)>,
-    /// Guards that are zero after the switch by construction, with the multiplicity of that zero.
-    /// The guard that fired is one of them without being named.
+    /// Guards that are zero after the switch by construction, with the multiplicity of that zero. It need not
+    /// be said: zeros are found, to rounding, where they are. Said, it also holds where rounding hides it.
     pub vanishing: Vec<(Node, u8)>,
 }
 
@@ -99,6 +99,14 @@ pub enum BuildError {
     /// More quantities than an index can name.
     #[error("the program has {0} quantities, at most 65536 are possible: take fewer terms")]
     TooLarge(usize),
+    /// A scale that is no size.
+    #[error("the scale of state {state} is {scale}: a positive number is needed, or 0 for none")]
+    Scale {
+        /// The state.
+        state: usize,
+        /// The number given.
+        scale: f64,
+    },
     /// A period that is not positive.
     #[error("the period is {0}: a positive number is needed")]
     Period(f64),
@@ -110,6 +118,8 @@ pub struct System {
     pub(crate) structure: Arc<Structure>,
     pub(crate) coefficients: Arc<[f64]>,
     pub(crate) tables: Arc<[f64]>,
+    /// Of each state that takes part in error control.
+    pub(crate) scales: Arc<[f64]>,
     pub(crate) period: f64,
     /// What it was built from, but for the coefficients.
     pub(crate) plan: Arc<SystemBuilder>,
@@ -282,6 +292,7 @@ pub struct SystemBuilder {
     pub(crate) declared: usize,
     drive: Option<f64>,
     pub(crate) quadratures: usize,
+    scales: Vec<f64>,
     pub(crate) derivative: Vec<Option<Node>>,
     pub(crate) ops: Vec<RawOp>,
     /// Nodes that the operations make.
@@ -339,6 +350,7 @@ impl SystemBuilder {
             declared: states,
             drive: None,
             quadratures: 0,
+            scales: vec![0.0; states],
             derivative: vec![None; states],
             ops: Vec::new(),
             nodes: 0,
@@ -351,6 +363,15 @@ impl SystemBuilder {
     /// The node of state `index`.
     pub fn state(&self, index: usize) -> Node {
         Node::State(index)
+    }
+
+    /// Lets errors of state `index` be relative to `scale` where the state is smaller than that. They are relative to
+    /// how large the state has been in this period and the one before, and to nothing smaller.
+    ///
+    /// # Panics
+    /// If there is no such state.
+    pub fn scale(&mut self, index: usize, scale: f64) {
+        self.scales[index] = scale;
     }
 
     /// Drives the system at angular frequency `omega`; gives cos(omega t) and sin(omega t).
@@ -657,6 +678,14 @@ impl SystemBuilder {
         if !(period > 0.0 && period.is_finite()) {
             return Err(BuildError::Period(period));
         }
+        let scales = self
+            .scales
+            .iter()
+            .position(|s| !(*s >= 0.0 && s.is_finite()));
+        if let Some(state) = scales {
+            let scale = self.scales[state];
+            return Err(BuildError::Scale { state, scale });
+        }
         if let Some(index) = self.coefficients.iter().position(|c| !c.is_finite()) {
             return Err(BuildError::NotFinite {
                 index,
@@ -668,8 +697,10 @@ impl SystemBuilder {
             ops: &self.ops,
             derivative: &self.derivative,
             units: &self.units,
+            switched: &self.switched,
         })?;
         structure.controlled -= self.quadratures;
+        let controlled = structure.controlled;
         structure.drive = self.drive.map(|_| (self.declared, self.declared + 1));
         let mut tables = Vec::new();
         for (slot, unit, values) in &self.switched {
@@ -695,6 +726,13 @@ impl SystemBuilder {
             structure: Arc::new(structure),
             coefficients: std::mem::take(&mut self.coefficients).into(),
             tables: tables.into(),
+            scales: self
+                .scales
+                .iter()
+                .copied()
+                .chain([1.0; 2])
+                .take(controlled)
+                .collect(),
             period,
             plan: Arc::new(self),
         })

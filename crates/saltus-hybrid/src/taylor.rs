@@ -11,7 +11,7 @@ use std::sync::atomic::AtomicBool;
 use crate::arith::LANES;
 use crate::event::Firing;
 use crate::kernel::Kernel;
-use crate::lane::{Lane, Next};
+use crate::lane::{Arrival, Lane, Next};
 use crate::run::{IntegrateError, Leg, Options, Status, Step, Task, check_stop};
 
 /// Runs all tasks.
@@ -69,12 +69,12 @@ impl<T: Task> Ensemble<T> {
         stop: &AtomicBool,
         done: &mut dyn FnMut(T),
     ) -> Result<(), IntegrateError> {
-        if let Some(task) = self.occupy(0, task, Some(leg))? {
+        if let Some(task) = self.occupy(0, task, Some(leg), options)? {
             done(task);
         }
         for slot in 0..LANES {
             if self.lanes[slot].is_none() {
-                self.refill(slot, tasks, done)?;
+                self.refill(slot, tasks, done, options)?;
             }
         }
         while self.lanes.iter().any(Option::is_some) {
@@ -89,7 +89,7 @@ impl<T: Task> Ensemble<T> {
             self.kernel.advance();
             for slot in 0..LANES {
                 if let Some(status) = self.book(slot, options) {
-                    self.retire(slot, status, tasks, done)?;
+                    self.retire(slot, status, tasks, done, options)?;
                 }
             }
         }
@@ -102,10 +102,11 @@ impl<T: Task> Ensemble<T> {
         slot: usize,
         tasks: &mut dyn Iterator<Item = T>,
         done: &mut dyn FnMut(T),
+        options: &Options,
     ) -> Result<(), IntegrateError> {
         for mut task in tasks {
             let first = task.begin();
-            match self.occupy(slot, task, first)? {
+            match self.occupy(slot, task, first, options)? {
                 Some(task) => done(task),
                 None => return Ok(()),
             }
@@ -120,18 +121,19 @@ impl<T: Task> Ensemble<T> {
         slot: usize,
         mut task: T,
         mut leg: Option<Leg>,
+        options: &Options,
     ) -> Result<Option<T>, IntegrateError> {
         while let Some(next) = leg {
             let (ours, theirs) = (&self.kernel.structure, &next.system.structure);
             if !Arc::ptr_eq(ours, theirs) && **ours != **theirs {
                 return Err(IntegrateError::Structure);
             }
-            let lane = Lane::new(task, &next)?;
+            let lane = Lane::new(task, &next, options)?;
             if lane.is_over() {
                 (task, leg) = lane.finish(Status::Completed, &next.start.x);
                 continue;
             }
-            self.kernel.set_state(slot, &next.start.x);
+            self.kernel.begin(slot, &next.system, &next.start.x);
             self.kernel
                 .set_system(slot, &next.system, &lane.guarded.modes);
             self.kernel.left.0[slot] = lane.left();
@@ -153,9 +155,10 @@ impl<T: Task> Ensemble<T> {
             return;
         }
         let whole = kernel.lengths.0[slot];
-        let guarded = &lane.guarded;
-        let (firing, touches) =
-            guarded.next(structure, &kernel.table, kernel.order, |watch, power| {
+        let coming = lane.look(
+            &kernel.table,
+            kernel.order,
+            |guarded, watch, power| {
                 let safe = kernel.is_safe(slot, watch.guard, watch.sign);
                 if safe && !guarded.is_zero(watch.guard) {
                     return false;
@@ -166,9 +169,15 @@ impl<T: Task> Ensemble<T> {
                     power,
                 );
                 true
-            });
-        lane.touched(touches, whole);
-        let length = firing.map_or(whole, |firing| firing.theta * whole);
+            },
+            || kernel.spot(slot),
+        );
+        lane.touched(coming.touches, whole);
+        let length = if coming.until < 1.0 {
+            coming.until * whole
+        } else {
+            whole
+        };
         if length > 0.0 {
             if lane.wants_steps {
                 self.dense.clear();
@@ -191,10 +200,10 @@ impl<T: Task> Ensemble<T> {
                 in_fractions(kernel.power(slot, slots[guard]), length, power);
             });
         }
-        self.plans[slot].firing = firing;
+        self.plans[slot].firing = coming.firing;
         self.kernel.lengths.0[slot] = length;
         // A switch changes more, and is booked after the step.
-        if firing.is_none() {
+        if coming.firing.is_none() {
             self.kernel.watch(slot, &lane.guarded, lane.wants_steps);
         }
     }
@@ -238,12 +247,24 @@ impl<T: Task> Ensemble<T> {
             return Some(lane.too_many_steps());
         }
         let length = kernel.lengths.0[slot];
-        let period_ends = length >= kernel.left.0[slot];
-        let next = lane.accept(options, length, plan.firing, period_ends, &mut self.x);
+        let arrival = if length < kernel.left.0[slot] {
+            Arrival::No
+        } else if kernel.is_clear(slot, lane.guarded.watches(&kernel.structure)) {
+            Arrival::Clear
+        } else {
+            Arrival::WithGuardsNearZero
+        };
+        let (switches, period) = (lane.switches(), lane.period);
+        let sizes = || kernel.sizes().of_lane(slot);
+        let next = lane.accept(options, length, plan.firing, arrival, &mut self.x, sizes);
         kernel.set_state(slot, &self.x);
-        if plan.firing.is_some() {
+        if lane.period > period {
+            kernel.sizes().period_ends(slot);
+        }
+        if lane.switches() > switches {
             kernel.set_modes(slot, &lane.system, &lane.guarded.modes);
             kernel.watch(slot, &lane.guarded, lane.wants_steps);
+            kernel.sizes().switched(slot);
         }
         kernel.left.0[slot] = lane.left();
         match next {
@@ -259,13 +280,14 @@ impl<T: Task> Ensemble<T> {
         status: Status,
         tasks: &mut dyn Iterator<Item = T>,
         done: &mut dyn FnMut(T),
+        options: &Options,
     ) -> Result<(), IntegrateError> {
         if let Some(lane) = self.lanes[slot].take() {
             self.kernel.clear(slot);
             let (task, next) = lane.finish(status, &self.x);
-            if let Some(task) = self.occupy(slot, task, next)? {
+            if let Some(task) = self.occupy(slot, task, next, options)? {
                 done(task);
-                self.refill(slot, tasks, done)?;
+                self.refill(slot, tasks, done, options)?;
             }
         }
         Ok(())

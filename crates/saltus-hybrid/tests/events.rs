@@ -463,7 +463,8 @@ fn a_ball_at_rest_neither_falls_nor_hangs() {
             end.status,
             Status::Chattering {
                 time: 0.0,
-                count: 101
+                count: 101,
+                at_once: true
             }
         );
         assert_eq!(end.point.x, [0.0, 0.0]);

@@ -254,7 +254,8 @@ fn the_trajectory_is_the_same_with_and_without_tangents() {
             wide.columns_mut(&mut start.x).fill(0.3);
             let end = run(&wide, start, 5, Method::taylor(1e-9));
             for (a, b) in end.x.iter().zip(&plain.x) {
-                assert!((a - b).abs() < 1e-7, "{a} {b}"); // tolerance 1e-9, some growth of errors
+                // tolerance 1e-9 of states up to 40, some growth of errors
+                assert!((a - b).abs() < 1e-6, "{a} {b}");
             }
             assert_eq!(end.modes, plain.modes);
         }
@@ -275,4 +276,109 @@ fn columns_do_not_depend_on_their_neighbours() {
             assert!((a - b).abs() < 1e-11, "{a} {b}");
         }
     }
+}
+
+/// An oscillator of stiffness 1 under cos(omega t) with dry friction mu: right, left, and, if asked for, a stick
+/// between them that may last no time.
+fn dry_friction(mu: f64, omega: f64, sticks: bool) -> System {
+    let mut b = SystemBuilder::new(2);
+    let (x, v) = (b.state(0), b.state(1));
+    let (cos, _) = b.drive(omega);
+    let unit = b.reserve_unit();
+    let one = b.linear(1.0, &[]);
+    let pull = b.linear(0.0, &[(1.0, cos), (-1.0, x)]);
+    let slides = if sticks {
+        vec![1.0, 1.0, 0.0]
+    } else {
+        vec![1.0; 2]
+    };
+    let signs: Vec<f64> = [-mu, mu, 0.0][..slides.len()].to_vec();
+    let dx = b.gate(unit, &slides, v);
+    let pulled = b.gate(unit, &slides, pull);
+    let friction = b.gate(unit, &signs, one);
+    let dv = b.linear(0.0, &[(1.0, pulled), (1.0, friction)]);
+    b.derivative(0, dx);
+    b.derivative(1, dv);
+    let (right, left) = (b.linear(-mu, &[(1.0, pull)]), b.linear(mu, &[(1.0, pull)]));
+    let zero = b.linear(0.0, &[]);
+    let stop = usize::from(sticks) * 2;
+    let modes = vec![
+        vec![Transition::falling(v, if sticks { stop } else { 1 }).reset(1, zero)],
+        vec![Transition::rising(v, stop).reset(1, zero)],
+        vec![Transition::rising(right, 0), Transition::falling(left, 1)],
+    ];
+    let modes = modes.into_iter().take(slides.len()).collect();
+    b.define_unit(unit, modes);
+    b.build(0.0).unwrap()
+}
+
+#[test]
+fn a_switch_at_once_after_another_moves_in_time_with_it() {
+    // At mu 0.1 the motion turns round without sticking: the two-mode form says what the chain must give. The
+    // rate of the pull leads back or on where it fires, by the frequency.
+    for omega in [0.7, 0.45, 1.3] {
+        let [two, three] = [false, true].map(|sticks| {
+            let system = dry_friction(0.1, omega, sticks);
+            let start = system.point(&[0], &[-3.0, 2.0]);
+            tangent(&system, &start, 2, 2, TAYLOR)
+        });
+        for (a, b) in two.0.iter().zip(&three.0) {
+            assert!((a - b).abs() < 1e-11, "{omega}: {two:?} {three:?}");
+        }
+        assert!((two.1.x[0] - three.1.x[0]).abs() < 1e-12);
+        let system = dry_friction(0.1, omega, true);
+        let worst = against_differences(&system, &[0], &[-1.9, 0.4], 2, TAYLOR, 1e-6);
+        assert!(worst < 1e-7, "{omega} {worst}");
+    }
+}
+
+#[test]
+fn sticking_forgets_how_it_was_reached() {
+    // At mu 0.8 it sticks for a while: both columns lie along the set of rest afterwards.
+    let system = dry_friction(0.8, 0.7, true);
+    let worst = against_differences(&system, &[0], &[-1.9, 0.4], 2, TAYLOR, 1e-6);
+    assert!(worst < 1e-7, "{worst}");
+}
+
+#[test]
+fn a_guard_carried_across_zero_moves_in_time_with_what_carries_it() {
+    // A carrier of rate 1 + x/10 falls from 1 to 0 and so switches the damping of x'' = -x - d x' + d.
+    let mut b = SystemBuilder::new(3);
+    let [c, x, v] = [0, 1, 2].map(|i| b.state(i));
+    let rate = b.linear(1.0, &[(0.1, x)]);
+    let zero = b.linear(0.0, &[]);
+    let (top, above) = (b.linear(-1.0, &[(1.0, c)]), b.linear(-0.3, &[(1.0, c)]));
+    b.unit(vec![vec![Transition::rising(top, 0).reset(0, zero)]]);
+    let on = b.unit(vec![
+        vec![Transition::rising(above, 1)],
+        vec![Transition::falling(above, 0)],
+    ]);
+    let push = b.linear(1.0, &[(-0.3, v)]);
+    let pushed = b.gate(on, &[1.0, 0.0], push);
+    let dv = b.linear(0.0, &[(-1.0, x), (1.0, pushed)]);
+    b.derivative(0, rate);
+    b.derivative(1, v);
+    b.derivative(2, dv);
+    let system = b.build(2.7).unwrap();
+    let worst = against_differences(&system, &[0, 0], &[0.1, 0.2, 0.3], 2, TAYLOR, 1e-6);
+    assert!(worst < 1e-7, "{worst}");
+}
+
+#[test]
+fn a_held_guard_that_turns_away_has_its_columns() {
+    // Kelvin-Voigt contact entered from flight below the floor, where the speed changes sign.
+    let mut b = SystemBuilder::new(2);
+    let (y, v) = (b.state(0), b.state(1));
+    let unit = b.reserve_unit();
+    let force = b.linear(0.0, &[(-100.0, y), (-4.0, v)]);
+    let gated = b.gate(unit, &[0.0, 1.0], force);
+    let a = b.linear(-9.81, &[(1.0, gated), (-0.3, v)]);
+    b.derivative(0, v);
+    b.derivative(1, a);
+    let flight = vec![Transition::falling(y, 1)];
+    b.define_unit(unit, vec![flight, vec![Transition::falling(force, 0)]]);
+    let system = b.build(0.1).unwrap();
+    // differences of rates in the turn, and of trajectories here
+    let worst = against_differences(&system, &[0], &[-0.001, 0.1], 1, TAYLOR, 1e-6);
+    assert!(worst < 1e-6, "{worst}");
 }

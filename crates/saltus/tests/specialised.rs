@@ -6,7 +6,8 @@
 use std::sync::atomic::AtomicBool;
 
 use saltus::hybrid::{
-    End, Instructions, Leg, Method, Options, Recording, Sample, Status, Task, integrate, record,
+    End, Instructions, Leg, Method, Options, Point, Recording, Sample, Status, System, Task,
+    integrate, record,
 };
 use saltus::model::{Inertia, Model, Setup};
 use saltus::physics::ContactLaw;
@@ -135,6 +136,41 @@ fn avx2_and_avx512_agree_to_the_bit_and_plain_code_to_rounding() {
         for (a, b) in pairs {
             assert!((a - b).abs() < 1e-12, "{a} {b}");
         }
+    }
+}
+
+#[test]
+fn every_written_program_runs_in_512_kib_of_stack() {
+    // As `saltus-hybrid/tests/stack.rs` for those that are interpreted.
+    let run = |system: System, point: Point| {
+        let leg = Leg {
+            system,
+            start: point,
+            periods: 3,
+        };
+        let run = move || {
+            for instructions in [
+                Instructions::Best,
+                Instructions::Avx2,
+                Instructions::Baseline,
+            ] {
+                let options = Options {
+                    instructions,
+                    ..Options::default()
+                };
+                let end = record(&leg, &options).unwrap().end;
+                assert_eq!(end.status, Status::Completed);
+            }
+        };
+        let thread = std::thread::Builder::new().stack_size(512 << 10);
+        thread.spawn(run).unwrap().join().unwrap();
+    };
+    for setup in setups() {
+        let model = setup.model().unwrap();
+        let start = model.start(3.0, 2.0);
+        let tangent = model.system().with_tangents(1).unwrap();
+        run(tangent.clone(), tangent.point(&start.modes, &start.x));
+        run(model.system().clone(), start);
     }
 }
 

@@ -162,7 +162,11 @@ fn write_status(status: Option<&Status>, out: &mut Writer) {
     let (kind, time, count) = match status {
         None => (0, 0.0, 0),
         Some(Status::Completed) => (1, 0.0, 0),
-        Some(&Status::Chattering { time, count }) => (2, time, count.into()),
+        Some(&Status::Chattering {
+            time,
+            count,
+            at_once,
+        }) => (if at_once { 5 } else { 2 }, time, count.into()),
         Some(&Status::NotFinite { time, state }) => (3, time, state as u64),
         Some(&Status::TooManySteps { time, count }) => (4, time, count.into()),
         // an ending that is new here: not read back, and so computed again
@@ -179,9 +183,10 @@ fn status(from: &mut Reader) -> Option<Option<Status>> {
     Some(match kind {
         0 => None,
         1 => Some(Status::Completed),
-        2 => Some(Status::Chattering {
+        2 | 5 => Some(Status::Chattering {
             time,
             count: small()?,
+            at_once: kind == 5,
         }),
         3 => Some(Status::NotFinite {
             time,

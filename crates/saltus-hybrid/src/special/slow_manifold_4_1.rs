@@ -25,7 +25,7 @@ order::<A, true>(a, c, &[], first, next, a.splat(1.0));
     if let [row] = rest { guards(a, c, past, row) }
 }
 
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn order<A: Arith, const FIRST: bool>(
     a: A,
     c: &[A::Cell; STREAM],
@@ -166,7 +166,7 @@ fn order<A: Arith, const FIRST: bool>(
     next[47] = a.store(m11);
 }
 
-#[inline(always)]
+#[cfg_attr(not(unoptimised), inline(always))]
 fn guards<A: Arith>(
     a: A,
     c: &[A::Cell; STREAM],

@@ -106,7 +106,7 @@ impl Blueprint {
         }
         for (state, scale) in self.scales.iter().enumerate() {
             if let Some(scale) = scale {
-                give_scale(&mut b, state, values.of(*scale));
+                b.scale(state, values.of(*scale));
             }
         }
         for (unit, modes) in units.into_iter().zip(&self.units) {
@@ -166,11 +166,6 @@ impl Blueprint {
             }
         })
     }
-}
-
-/// MERGE: `b.scale(state, scale)` once the builder has it; nothing else is missing.
-fn give_scale(b: &mut SystemBuilder, state: usize, scale: f64) {
-    let _ = (b, state, scale);
 }
 
 /// The engine's nodes of what has been made.

@@ -7,7 +7,7 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use saltus_hybrid::{
-    End, IntegrateError, Leg, Sample, Step, Switch, SwitchKind, System, Task, integrate_all,
+    End, IntegrateError, Leg, Options, Sample, Switch, SwitchKind, System, Task, integrate_all,
 };
 
 use super::blueprint::Blueprint;
@@ -80,7 +80,11 @@ pub(crate) fn run(
         .ok_or_else(too_much)?;
     let mut samples = filled(f64::NAN, members.count, rows, states)?;
     let mut modes = filled(0u8, members.count, rows, units)?;
-    let options = settings.options();
+    let samples_per_period = u32::try_from(plan.per_period).map_err(|_| too_much())?;
+    let options = Options {
+        samples_per_period,
+        ..settings.options()
+    };
     let work = move |stop: &AtomicBool, done: &AtomicU64| {
         let mut ended = Vec::new();
         if members.count > 0 {
@@ -97,7 +101,6 @@ pub(crate) fn run(
                 plan: &plan,
                 samples: kept.next().unwrap_or_default(),
                 modes: kept_modes.next().unwrap_or_default(),
-                taken: 0,
                 period: first.period(),
                 switches: Switches::default(),
                 end: None,
@@ -195,8 +198,6 @@ struct Member<'a> {
     plan: &'a Plan,
     samples: &'a mut [f64],
     modes: &'a mut [u8],
-    /// Samples taken of the present period.
-    taken: usize,
     period: f64,
     switches: Switches,
     end: Option<End>,
@@ -204,14 +205,6 @@ struct Member<'a> {
 }
 
 impl Member<'_> {
-    /// The place of the next sample of a period, counted from 0; none in the transient.
-    fn place(&mut self, period: u64) -> Option<usize> {
-        let kept = period.checked_sub(self.plan.transient)? as usize;
-        let place = kept * self.plan.per_period + self.taken;
-        self.taken += 1;
-        Some(place)
-    }
-
     fn keep_modes(&mut self, place: usize, modes: &[usize]) {
         let into = self.modes.chunks_exact_mut(modes.len().max(1)).nth(place);
         for (out, &mode) in into.into_iter().flatten().zip(modes) {
@@ -243,39 +236,17 @@ impl Task for Member<'_> {
     }
 
     fn sample(&mut self, sample: &Sample<'_>) -> bool {
-        // Rounding may have put an inner sample behind the last step: it is this one then.
-        while self.taken < self.plan.per_period {
-            let Some(place) = self.place(sample.period - 1) else {
-                break;
-            };
+        let per_period = self.plan.per_period;
+        if let Some(kept) = (sample.period - 1).checked_sub(self.plan.transient) {
+            let place = kept as usize * per_period + sample.part as usize - 1;
             let states = self.blueprint.states();
             self.sample_at(place).copy_from_slice(&sample.x[..states]);
             self.keep_modes(place, sample.modes);
         }
-        self.taken = 0;
-        self.done.fetch_add(1, Ordering::Relaxed);
+        if sample.part as usize == per_period {
+            self.done.fetch_add(1, Ordering::Relaxed);
+        }
         true
-    }
-
-    fn wants_steps(&self) -> bool {
-        self.plan.per_period > 1
-    }
-
-    fn step(&mut self, step: &Step<'_>) {
-        if step.period < self.plan.transient {
-            return;
-        }
-        while self.taken + 1 < self.plan.per_period {
-            let part = (self.taken + 1) as f64 / self.plan.per_period as f64;
-            let since = part * self.period - step.time;
-            if since > step.length {
-                break;
-            }
-            if let Some(place) = self.place(step.period) {
-                step.state(since, self.sample_at(place));
-                self.keep_modes(place, step.modes);
-            }
-        }
     }
 
     fn switch(&mut self, switch: &Switch<'_>) {

@@ -1,0 +1,128 @@
+//! Guards at a point, as Taylor coefficients along the solution beside what rounding leaves of them.
+//!
+//! The polynomial of a step tells where a guard vanishes within it. It does not tell whether a value of
+//! 1e-17 at its start is zero: that depends on the size of the terms the value is a difference of. The
+//! same program with the absolute values of all its numbers bounds these terms, in every order
+//! (a running error analysis; Higham, Accuracy and Stability of Numerical Algorithms (2002), section 3.3).
+
+use crate::arith::Scalar;
+use crate::series::{Series, expand};
+use crate::system::{Mode, System};
+
+/// A coefficient is zero if it is below this part of the terms it is made of: some thousand units of
+/// rounding, for what accumulates on the way to the point.
+const ZERO: f64 = 1e-12;
+
+/// A state near zero has rounding of its own size along the way, by this part of [`ZERO`].
+const MEMORY: f64 = 1e-3;
+
+/// Highest multiplicity of a zero that is told.
+const ORDER: usize = 8;
+
+/// A guard just after a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Side {
+    /// Coefficients that are zero before the first that is not.
+    pub(crate) zeros: u8,
+    /// Sign of that one; 0 if there is none.
+    pub(crate) sign: f64,
+    /// Sign of the next one that is not zero: where a guard that is not zero goes.
+    pub(crate) trend: f64,
+    /// Whether the guard is as close to zero as the error of the solution.
+    pub(crate) close: bool,
+}
+
+impl Side {
+    /// The side as seen by a mode that lasts while `sign` times the guard is positive.
+    pub(crate) fn seen(self, sign: f64) -> Self {
+        Self {
+            sign: self.sign * sign,
+            trend: self.trend * sign,
+            ..self
+        }
+    }
+
+    /// Whether the guard ends its mode: it falls from zero, or lies beyond.
+    pub(crate) fn ends(self) -> bool {
+        self.sign < 0.0
+    }
+
+    /// Whether a guard beyond zero stays there or comes back.
+    pub(crate) fn may_be_held(self) -> bool {
+        self.zeros == 0 && self.sign < 0.0 && self.trend >= 0.0
+    }
+}
+
+/// Evaluates guards of a system at points.
+pub(crate) struct Jets {
+    system: System,
+    modes: Option<Vec<Mode>>,
+    stream: Vec<f64>,
+    magnitudes: Vec<f64>,
+    values: Series<f64>,
+    bounds: Series<f64>,
+}
+
+impl Jets {
+    /// Of the guards of a system without tangents.
+    pub(crate) fn new(system: &System) -> Self {
+        Self {
+            system: system.clone(),
+            modes: None,
+            stream: Vec::new(),
+            magnitudes: Vec::new(),
+            values: Series::new(&system.structure, ORDER),
+            bounds: Series::new(&system.structure, ORDER),
+        }
+    }
+
+    /// Sides of all guards at the state `x`, whose components have been as large as `sizes` on the way.
+    /// `known` are coefficients of each guard that are zero by construction; `close` is the error of the
+    /// solution, relative to the terms of a guard.
+    pub(crate) fn sides(
+        &mut self,
+        modes: &[Mode],
+        x: &[f64],
+        sizes: &[f64],
+        known: &[u8],
+        close: f64,
+    ) -> Vec<Side> {
+        if self.modes.as_deref() != Some(modes) {
+            self.modes = Some(modes.to_vec());
+            self.stream = self.system.stream(modes);
+            self.magnitudes = self.stream.iter().map(|c| c.abs()).collect();
+        }
+        let structure = &self.system.structure;
+        for (i, &slot) in structure.state_slots.iter().enumerate() {
+            let size = sizes.get(i).copied().unwrap_or(0.0);
+            *self.values.value(slot) = x[i];
+            *self.bounds.value(slot) = x[i].abs() + MEMORY * size;
+        }
+        expand(Scalar, structure, None, &self.stream, &mut self.values);
+        let magnitudes = &self.magnitudes;
+        expand(Scalar, structure, None, magnitudes, &mut self.bounds);
+        let guards = structure.guard_slots.iter().zip(known);
+        guards
+            .map(|(&slot, &known)| self.side(slot, known.into(), close))
+            .collect()
+    }
+
+    fn side(&self, slot: usize, known: usize, close: f64) -> Side {
+        let mut signs = [0.0; ORDER + 1];
+        let terms = self.values.of(slot).zip(self.bounds.of(slot));
+        for (sign, (a, bound)) in signs.iter_mut().zip(terms).skip(known) {
+            // A bound beyond all numbers says nothing.
+            let zero = bound.is_finite() && a.abs() <= ZERO * bound;
+            *sign = if zero || *a == 0.0 { 0.0 } else { a.signum() };
+        }
+        let nonzero = |from: usize| (from..=ORDER).find(|&k| signs[k] != 0.0);
+        let zeros = nonzero(0).unwrap_or(ORDER + 1);
+        let next = nonzero(zeros + 1);
+        Side {
+            zeros: zeros as u8,
+            sign: signs.get(zeros).copied().unwrap_or(0.0),
+            trend: next.map_or(0.0, |k| signs[k]),
+            close: self.values.at(slot, 0).abs() <= close * self.bounds.at(slot, 0),
+        }
+    }
+}
