@@ -120,7 +120,7 @@ class Program:
         forced: bool,
         clock: int,
         units: Sequence[Sequence[Sequence[_Transition]]],
-        scales: Sequence[int | None] = (),
+        scales: Sequence[int | None] = ...,
     ) -> Program: ...
     @property
     def quantities(self) -> int: ...

@@ -198,6 +198,31 @@ class TestDefinition:
             with pytest.raises(DefinitionError, match=message):
                 states("y", "z", scale=scale)
 
+    def test_a_scale_says_how_small_a_state_matters(self) -> None:
+        # an oscillation of 1e-9 is hardly worth a step where errors of 1e-10 are
+        def steps(scale: float | None) -> tuple[int, float]:
+            x, v = states("x", "v", scale=scale)
+            run = integrate(System([x, v], [50.0 * v, -50.0 * x], interval=1.0), [1e-9, 0.0], 10)
+            return int(run.steps), float(np.abs(run.end[0] - 1e-9 * np.cos(500.0)))
+
+        (fine, small), (coarse, large) = steps(None), steps(1.0)
+        assert small < 1e-6 * 1e-9  # 1e-10 a step, over some hundred steps
+        assert large < CLOSE
+        assert coarse < fine / 2
+
+    def test_a_small_system_is_as_exact_as_a_large_one(self) -> None:
+        # x' = y' = -k x y from x = y = s with k = 1/s: s/(1 + t), 0.3 s at t = 7/3
+        x, y = states("x", "y")
+        (k, s) = parameters("k", "s")
+        gone = Unit("there", "gone")
+        event = gone.transition("there", "gone", falling=x - 0.3 * s)
+        system = System([x, y], [-k * x * y, -k * x * y], interval=4.0, transitions=[event])
+        sizes = np.array([1e-12, 1.0, 1e6])
+        starts = np.stack([sizes, sizes], axis=1)
+        run = integrate(system, starts, 1, parameters={"k": 1 / sizes, "s": sizes})
+        assert run.end / starts == pytest.approx(0.2, rel=CLOSE)
+        assert run.switches.time == pytest.approx(7 / 3, rel=CLOSE)
+
     def test_a_system_sent_by_an_earlier_version_has_no_scales(self, ball: System) -> None:
         definition = ball._definition
         vars(definition).pop("scales")
@@ -355,6 +380,35 @@ class TestSamples:
         assert np.isnan(run.samples[4:]).all()
         assert not run.completed
         assert "0 of 1 completed" in repr(run)
+
+    def test_a_mode_that_kicks_itself_for_ever_is_told_what_is_wrong_with_its_guard(self) -> None:
+        # the guard depends on the forcing alone, so no reset of states moves it back
+        x, v = states("x", "v")
+        forcing, unit = Forcing(1.0), Unit("only")
+        kick = unit.transition("only", "only", rising=forcing.sin, reset={v: v + 0.1})
+        system = System([x, v], [v, -x], forcing=forcing, transitions=[kick])
+        run = integrate(system, [1.0, 0.0], 3)
+        assert run.status == "chattering"
+        assert "switches at one instant" in str(run.reason)
+        assert "let the switch move it back, or enter a mode with another guard" in str(run.reason)
+        # as the message says: two modes, which the sine enters by turns, and a kick at each rise
+        unit = Unit("before", "after")
+        kick = unit.transition("before", "after", rising=forcing.sin, reset={v: v + 0.1})
+        back = unit.transition("after", "before", falling=forcing.sin)
+        system = System([x, v], [v, -x], forcing=forcing, transitions=[kick, back])
+        run = integrate(system, [1.0, 0.0], 3, modes=[1])
+        assert run.completed
+        assert (run.switches.target == 1).sum() == 3
+
+    def test_a_reset_may_move_its_own_guard(self) -> None:
+        (x,) = states("x")
+        unit = Unit("ramp")
+        wrap = unit.transition("ramp", "ramp", rising=x - 1.0, reset={x: 0.0})
+        system = System([x], [1.0], interval=0.7, transitions=[wrap])
+        run = integrate(system, [0.0], 20)
+        # x = t mod 1, the 10th and 20th sample at a reset: the state after it
+        times = np.arange(1, 21) * 0.7
+        assert run.samples[:, 0] == pytest.approx((times + 1e-9) % 1.0 - 1e-9, abs=CLOSE)
 
     def test_a_wall_changes_modes_at_its_surface(self) -> None:
         x, v = states("x", "v")

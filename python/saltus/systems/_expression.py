@@ -185,8 +185,8 @@ def states(*names: str, scale: Scales = None) -> tuple[Expression, ...]:
     *names : str
         What they are called.
     scale : float or Expression of parameters, or a sequence of one for each state, optional
-        The size below which a state need not be resolved further, in its unit: the tolerance of a
-        method is relative to a state's own size along the way, and to its scale where that is larger.
+        The size below which a state need not be resolved further, in its unit: errors are relative to
+        how large a state has lately been, and to its scale where that is larger.
 
     Examples
     --------

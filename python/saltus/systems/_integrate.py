@@ -38,7 +38,8 @@ class Taylor:
     Parameters
     ----------
     tolerance : float
-        Size allowed for the last term of the series, in the units of the states; 1e-16 to 1e-2.
+        Size allowed for the last terms of the series, relative to how large each state has lately been
+        or to its scale, whichever is larger; 1e-16 to 1e-2.
     order : int, optional
         Order of the series, 4 to 30; by default the one that suits the tolerance.
     instructions : {"best", "avx2", "baseline"}
@@ -271,17 +272,19 @@ def integrate(
         against each other.
     modes : array_like of int, shape (..., units), optional
         The mode of each unit at the start, as a place in the list of its modes; by default the
-        first. A guard that is already on the wrong side fires at once.
+        first. A guard that is already beyond zero fires at once, unless it is coming back.
     transient : int, optional
         Periods to run before any are kept.
     samples_per_period : int, optional
-        Samples kept in each period, at equal distances; the last is that at phase 0 of the forcing.
+        Samples kept in each period, at equal distances; the last is that at phase 0 of the forcing. A
+        sample is the state after all switches at its instant.
     switches : bool, optional
         Whether to keep the switches.
     method : Taylor or RungeKutta4, optional
         The method.
     max_switches : int, optional
-        Switches in one period before a member ends as "chattering".
+        Switches in one period before a member ends as "chattering"; without end at one instant it does
+        so too, and its `reason` says which.
     threads : int, optional
         How many; 0 for as many as the machine has.
     progress : bool or callable, optional

@@ -133,13 +133,15 @@ class Unit:
             The mode that ends and the one that follows, which may be the same.
         falling, rising : Expression
             The guard, one of the two: positive while the mode lasts, and falling to zero at its end;
-            or negative, and rising.
+            or negative, and rising. It is looked at again after the switch: a mode that follows itself
+            needs a reset that moves its guard back.
         reset : mapping or pairs of (states, values), optional
             States that jump, and where to, from the values of all states just before. Both may be
             arrays.
         vanishing : mapping or pairs of (guards, multiplicities), optional
             Guards that are zero after the switch by construction, and how many of their derivatives,
-            themselves included. The guard that fired is one of them without being named.
+            themselves included. It need not be said: zeros are found, to rounding, where they are. Said,
+            it also holds where rounding hides one.
 
         Returns
         -------
