@@ -383,8 +383,9 @@ class Map:
 
     exponent: int | None = None
     """Forcing periods, at most, over which the largest Lyapunov exponent is followed
-    where the motion has no period (-, a whole number), such as 2000; 0: it is not
-    asked whether that is chaos or a torus. Range: 0 to 1e7. Default: 2000.
+    where the motion has no period (-, a whole number), such as 2000; chaos is
+    then run on for a quarter of that, to see whether it lasts. 0: it is not asked
+    whether that is chaos or a torus. Range: 0 to 1e7. Default: 2000.
     """
 
     x: Axis
@@ -411,8 +412,9 @@ class Basins:
 
     exponent: int | None = None
     """Forcing periods, at most, over which the largest Lyapunov exponent is followed
-    where the motion has no period (-, a whole number), such as 2000; 0: it is not
-    asked whether that is chaos or a torus. Range: 0 to 1e7. Default: 2000.
+    where the motion has no period (-, a whole number), such as 2000; chaos is
+    then run on for a quarter of that, to see whether it lasts. 0: it is not asked
+    whether that is chaos or a torus. Range: 0 to 1e7. Default: 2000.
     """
 
     x: Axis

@@ -73,7 +73,7 @@ impl PlaneAxis {
 }
 
 /// Part of the forcing periods allowed for an exponent for which chaos is run on, to see whether it lasts.
-const WATCH: u32 = 3;
+const WATCH: u32 = 4;
 
 impl Plane {
     pub(super) fn new(

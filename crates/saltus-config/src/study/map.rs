@@ -19,7 +19,7 @@ pub struct MapTable {
     #[garde(range(min = 1, max = 100_000))]
     pub record: u32,
     /// Forcing periods, at most, over which the largest Lyapunov exponent is followed where the motion has no
-    /// period (-, a whole number), such as 2000; chaos is then run on for a third of that, to see whether it lasts. 0: it
+    /// period (-, a whole number), such as 2000; chaos is then run on for a quarter of that, to see whether it lasts. 0: it
     /// is not asked whether that is chaos or a torus.
     #[serde(default = "default_exponent")]
     #[garde(range(min = 0, max = 10_000_000))]
@@ -46,7 +46,7 @@ pub struct BasinsTable {
     #[garde(range(min = 1, max = 100_000))]
     pub record: u32,
     /// Forcing periods, at most, over which the largest Lyapunov exponent is followed where the motion has no
-    /// period (-, a whole number), such as 2000; chaos is then run on for a third of that, to see whether it lasts. 0: it
+    /// period (-, a whole number), such as 2000; chaos is then run on for a quarter of that, to see whether it lasts. 0: it
     /// is not asked whether that is chaos or a torus.
     #[serde(default = "default_exponent")]
     #[garde(range(min = 0, max = 10_000_000))]

@@ -227,6 +227,7 @@ impl Journey<'_> {
         let nodes = std::mem::take(&mut self.unwatched);
         let search = Search {
             transient: WATCH,
+            record: 1,
             exponent: 0,
             confirm: true,
             ..*self.search
