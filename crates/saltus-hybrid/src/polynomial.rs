@@ -164,13 +164,9 @@ fn halve(piece: &Piece, degree: usize) -> (Piece, Piece) {
 pub(crate) fn first_descent(power: &[f64], table: &BernsteinTable) -> Descent {
     let degree = table.degree;
     debug_assert_eq!(power.len(), degree + 1);
-    let mut out = Descent {
-        at: None,
-        touches: 0,
-        touch_at: 0.0,
-    };
+    let mut touched = Vec::new();
     if table.clears(power) {
-        return out;
+        return Descent::new(None, touched);
     }
     let mut root = Piece {
         lo: 0.0,
@@ -194,13 +190,11 @@ pub(crate) fn first_descent(power: &[f64], table: &BernsteinTable) -> Descent {
         let narrow = (piece.hi - piece.lo).abs() < f64::EPSILON;
         if lowest >= -noise && (decided || narrow) {
             if piece.hi == 1.0 && b[degree] == 0.0 && b[degree - 1] > 0.0 {
-                out.at = Some(1.0);
-                return out;
+                return Descent::new(Some(1.0), touched);
             }
+            // A touch at its other end was one at the end of the piece before.
             if b[degree] <= noise {
-                out.note_touch(piece.hi);
-            } else if b[0] <= noise {
-                out.note_touch(piece.lo);
+                note_touch(&mut touched, piece.hi);
             }
             continue;
         }
@@ -208,14 +202,11 @@ pub(crate) fn first_descent(power: &[f64], table: &BernsteinTable) -> Descent {
         if changes == 1 && b[0] > 0.0 && b[degree] < 0.0 {
             let chord = b[0] / (b[0] - b[degree]);
             let guess = piece.lo + chord * (piece.hi - piece.lo);
-            out.at = Some(refine(power, piece.lo, piece.hi, guess));
-            return out;
+            return Descent::new(Some(refine(power, piece.lo, piece.hi, guess)), touched);
         }
         if changes == 0 && piece.lo > 0.0 {
             // Wholly negative: the crossing sat on the edge between two pieces.
-            out.touches -= u32::from(out.touches > 0 && out.touch_at == piece.lo);
-            out.at = Some(piece.lo);
-            return out;
+            return Descent::new(Some(piece.lo), touched);
         }
         if narrow {
             continue; // rounding of the coefficients, not a root
@@ -225,7 +216,7 @@ pub(crate) fn first_descent(power: &[f64], table: &BernsteinTable) -> Descent {
         stack.push(right);
         next = Some(left);
     }
-    out
+    Descent::new(None, touched)
 }
 
 /// Pieces that [`minima`] looks at.
@@ -250,13 +241,26 @@ pub(crate) fn minima(power: &[f64]) -> impl Iterator<Item = (f64, f64)> {
 }
 
 impl Descent {
-    /// Counts a tangency inside the step, once.
-    fn note_touch(&mut self, at: f64) {
-        let again = self.touches > 0 && (at - self.touch_at).abs() < SAME_TOUCH;
-        if at > 0.0 && at < 1.0 && !again {
-            self.touches += 1;
-            self.touch_at = at;
+    /// What falls through zero at the edge of a piece seemed to touch it, seen from the left.
+    fn new(at: Option<f64>, mut touched: Vec<f64>) -> Self {
+        if let Some(at) = at {
+            touched.retain(|touch| (at - touch).abs() >= SAME_TOUCH);
         }
+        Self {
+            at,
+            touches: touched.len() as u32,
+            touch_at: touched.last().copied().unwrap_or(0.0),
+        }
+    }
+}
+
+/// Counts a tangency inside the step, once.
+fn note_touch(touched: &mut Vec<f64>, at: f64) {
+    let again = touched
+        .last()
+        .is_some_and(|touch| (at - touch).abs() < SAME_TOUCH);
+    if at > 0.0 && at < 1.0 && !again {
+        touched.push(at);
     }
 }
 
@@ -334,9 +338,116 @@ mod tests {
     }
 
     #[test]
+    fn what_begins_below_zero_falls_at_once() {
+        // The least place there is, since 0 itself is not in the step.
+        for power in [&[-1.0, 0.5][..], &[-1.0, -0.5], &[-1e-3, 1.0, 1.0]] {
+            let at = first(power).at.expect("is below");
+            assert!(at > 0.0 && at <= f64::EPSILON, "{power:?} {at}");
+        }
+    }
+
+    #[test]
     fn no_root_no_crossing() {
         assert_eq!(first(&[1.0, 0.5, -0.3]).at, None);
         assert_eq!(first(&with_roots(&[1.5, 2.0, -0.5], -1.0)).at, None);
+    }
+
+    /// C(n, k).
+    fn binomial(n: usize, k: usize) -> f64 {
+        (0..k).fold(1.0, |c, i| c * (n - i) as f64 / (i + 1) as f64)
+    }
+
+    #[test]
+    fn weights_are_ratios_of_binomials() {
+        for degree in [1, 3, 7, 16, 30] {
+            let table = BernsteinTable::new(degree);
+            for k in 0..=degree {
+                let column = table.column(k);
+                assert_eq!(column.len(), degree + 1 - k);
+                for (j, w) in (k..).zip(column) {
+                    let exact = binomial(j, k) / binomial(degree, k);
+                    assert!((w - exact).abs() <= 1e-14 * exact, "{degree} {k} {j}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_root_on_the_edge_between_two_pieces_is_found_and_is_no_touch() {
+        // 1/2, 1/4 and 3/4 are edges of pieces, the roots beyond force them to be made; all is exact in binary.
+        for (roots, expected) in [
+            (&[0.5, 0.75, 0.875][..], 0.5),
+            (&[0.25, 0.375, 0.4375, 2.0, 3.0], 0.25),
+            (&[0.75, 0.8125, 0.875], 0.75),
+        ] {
+            let d = first(&with_roots(roots, 1.0));
+            assert_eq!(d.touches, 0, "{roots:?} {d:?}");
+            // Rounding over the slope there, the product of the distances of the roots: at least 1/128.
+            assert!(
+                (d.at.expect("crosses") - expected).abs() < 3e-14,
+                "{roots:?} {d:?}"
+            );
+        }
+        // Positive just after a zero at 0.
+        assert_eq!(first(&[0.0, 0.5, -1.0]).at, Some(0.5));
+        // A touch at one edge stays one when it crosses at another.
+        let d = first(&with_roots(&[0.25, 0.25, 0.5, 0.75, 0.875], 1.0));
+        assert!((d.at.expect("crosses") - 0.5).abs() < 1e-14, "{d:?}");
+        assert_eq!((d.touches, d.touch_at), (1, 0.25));
+    }
+
+    #[test]
+    fn touches_are_counted_once_each_and_inside_only() {
+        let touches = |roots: &[f64]| {
+            let d = first(&with_roots(roots, 1.0));
+            (d.at, d.touches, d.touch_at)
+        };
+        assert_eq!(touches(&[0.25, 0.25]), (None, 1, 0.25));
+        assert_eq!(touches(&[0.25, 0.25, 0.75, 0.75]), (None, 2, 0.75));
+        assert_eq!(touches(&[0.0, 0.0]), (None, 0, 0.0));
+        // At its end it vanishes, but did not come down through zero.
+        assert_eq!(touches(&[1.0, 1.0]), (None, 0, 0.0));
+        assert_eq!(touches(&[0.5, 0.5, 1.0]), (Some(1.0), 1, 0.5));
+        // Once more where it is not on an edge: a double root is known to the square root of rounding.
+        let (at, count, place) = touches(&[1.0 / 3.0, 1.0 / 3.0, 2.0]);
+        assert_eq!((at, count), (None, 1));
+        assert!((place - 1.0 / 3.0).abs() < 1e-7, "{place}");
+    }
+
+    #[test]
+    fn a_dip_is_a_crossing_if_it_is_deeper_than_rounding_and_a_touch_if_not() {
+        // 1e-6 apart about r: depth 2.5e-13 beside values up to 0.5, 70 times the rounding allowed for; 1e-8 apart:
+        // 2.5e-17.
+        for r in [0.1, 0.3, 0.5, 0.62, 0.9] {
+            let deep = first(&with_roots(&[r, r + 1e-6], 1.0));
+            assert!((deep.at.expect("dips") - r).abs() < 1e-9, "{r} {deep:?}");
+            let flat = first(&with_roots(&[r, r + 1e-8], 1.0));
+            assert_eq!((flat.at, flat.touches), (None, 1), "{r}");
+            assert!((flat.touch_at - r).abs() < 1e-7, "{r} {flat:?}");
+            // The hull of its pieces reaches zero long before it does.
+            let near = with_roots(&[r, r], 1.0);
+            let lifted: Vec<f64> = near
+                .iter()
+                .enumerate()
+                .map(|(k, a)| a + if k == 0 { 1e-13 } else { 0.0 })
+                .collect();
+            let d = first(&lifted);
+            assert_eq!((d.at, d.touches), (None, 0), "{r}");
+        }
+    }
+
+    #[test]
+    fn the_end_of_the_step_belongs_to_it_and_what_lies_beyond_does_not() {
+        let unit = f64::EPSILON;
+        for (root, expected) in [(1.0, Some(1.0)), (1.0 + 64.0 * unit, None)] {
+            assert_eq!(first(&[root, -1.0]).at, expected);
+            assert_eq!(first(&with_roots(&[root, 2.0, 3.0], 1.0)).at, expected);
+        }
+        let at = first(&[1.0 - 64.0 * unit, -1.0]).at.expect("crosses");
+        assert!((at - (1.0 - 64.0 * unit)).abs() <= unit);
+        // It vanishes at the end from below: the crossing is the root before.
+        let at = first(&with_roots(&[0.3, 1.0], 1.0)).at.expect("crosses");
+        assert!((at - 0.3).abs() < 1e-15, "{at}");
     }
 
     proptest::proptest! {
@@ -358,6 +469,84 @@ mod tests {
         }
     }
 
+    proptest::proptest! {
+        #[test]
+        fn value_and_slope_are_those_of_the_sum(
+            power in proptest::collection::vec(-1.0..1.0_f64, 1..32), x in -1.0..1.0_f64,
+        ) {
+            let value: f64 = power.iter().enumerate().map(|(k, a)| a * x.powi(k as i32)).sum();
+            let terms = power.iter().enumerate().skip(1);
+            let slope: f64 = terms.map(|(k, a)| k as f64 * a * x.powi(k as i32 - 1)).sum();
+            let (v, s) = value_and_slope(&power, x);
+            // Rounding of 32 terms up to 1, and of as many up to 31.
+            proptest::prop_assert!((v - value).abs() < 1e-14 && (s - slope).abs() < 2e-13);
+        }
+
+        #[test]
+        fn a_root_is_refined_to_rounding_from_anywhere_in_its_bracket(
+            root in 0.01..0.99_f64, guess in 0.0..1.0_f64, steep in 0.0..20.0_f64,
+        ) {
+            // (root - x) (1 + steep x^2), with slopes from 1 to 21.
+            let power = [root, -1.0, steep * root, -steep];
+            let found = refine(&power, 0.0, 1.0, guess);
+            // Rounding of terms up to 20, over a slope of at least 1 + steep root^2.
+            let rounding = 4.0 * f64::EPSILON * (1.0 + 2.0 * steep * root) / (1.0 + steep * root * root);
+            proptest::prop_assert!((found - root).abs() <= rounding, "{} {}", found, root);
+        }
+
+        #[test]
+        fn what_is_cleared_is_what_a_plain_bound_clears(
+            power in proptest::collection::vec(-1.0..1.0_f64, HEAD + 2..24), lift in 0.0..12.0_f64,
+        ) {
+            let mut power = power;
+            power[0] += lift;
+            let coefficient = |j: usize| -> f64 {
+                (0..=j).map(|k| binomial(j, k) / binomial(HEAD, k) * power[k]).sum()
+            };
+            let lowest = (0..=HEAD).map(coefficient).fold(f64::INFINITY, f64::min);
+            let rest: f64 = power[HEAD + 1..].iter().map(|a| a.abs()).sum();
+            let table = BernsteinTable::new(power.len() - 1);
+            // Rounding and the margin for it are below 1e-12 of values up to 20.
+            if (lowest - rest).abs() > 1e-12 {
+                proptest::prop_assert_eq!(table.clears(&power), lowest > rest);
+            }
+            // A short polynomial is not looked at twice.
+            proptest::prop_assert!(!BernsteinTable::new(HEAD).clears(&power[..=HEAD]));
+        }
+
+        #[test]
+        fn what_is_cleared_has_no_root(
+            power in proptest::collection::vec(-1.0..1.0_f64, HEAD + 2..24), lift in 0.0..6.0_f64,
+        ) {
+            let mut power = power;
+            power[0] += lift;
+            let table = BernsteinTable::new(power.len() - 1);
+            if table.clears(&power) {
+                for i in 0..=200 {
+                    let (value, _) = value_and_slope(&power, f64::from(i) / 200.0);
+                    proptest::prop_assert!(value > 0.0);
+                }
+                proptest::prop_assert_eq!(first_descent(&power, &table).at, None);
+            }
+        }
+    }
+
+    #[test]
+    fn the_margin_of_what_is_cleared_covers_rounding() {
+        // Touches zero at 1/2 in its head; lifted by less than the rounding of its coefficients.
+        let table = BernsteinTable::new(HEAD + 1);
+        let mut power = vec![0.0; HEAD + 2];
+        power[..3].copy_from_slice(&[0.25 + 4.0 * f64::EPSILON, 0.0, 0.0]);
+        assert!(table.clears(&power));
+        power[HEAD + 1] = 0.25;
+        assert!(
+            !table.clears(&power),
+            "the rest may be as large as the head"
+        );
+        power[HEAD + 1] = -0.25 + 1e-12;
+        assert!(table.clears(&power));
+    }
+
     #[test]
     fn minima_are_where_it_falls_and_then_rises() {
         // (x - 0.3)^2 (x - 0.8)^2 + 0.01: minima at both, a maximum between
@@ -369,6 +558,9 @@ mod tests {
         for ((at, value), expected) in found.into_iter().zip([0.3, 0.8]) {
             assert!((at - expected).abs() < 1e-7 && (value - 0.01).abs() < 1e-14);
         }
+        // At the edge of a piece, (x - 1/2)^2 + 1/8, it is one and not two.
+        let at_edge: Vec<_> = minima(&[0.375, -1.0, 1.0]).collect();
+        assert_eq!(at_edge, [(0.5, 0.125)]);
         assert_eq!(minima(&[1.0, 1.0]).count(), 0);
         assert_eq!(minima(&[1.0, -1.0]).count(), 0);
     }
