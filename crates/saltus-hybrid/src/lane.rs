@@ -15,6 +15,9 @@ pub(crate) struct Lane<T> {
     pub(crate) time: f64,
     pub(crate) period: u64,
     periods: u64,
+    /// Samples in each period, and how many of them lie behind in this one.
+    parts: u32,
+    part: u32,
     evaluator: Evaluator,
     dwell: Vec<Vec<f64>>,
     /// Since when, within the period, each unit is in its mode.
@@ -36,7 +39,7 @@ pub(crate) enum Next {
 }
 
 impl<T: Task> Lane<T> {
-    pub(crate) fn new(task: T, leg: &Leg) -> Result<Self, IntegrateError> {
+    pub(crate) fn new(task: T, leg: &Leg, options: &Options) -> Result<Self, IntegrateError> {
         let (got, expected) = (leg.start.x.len(), leg.system.state_len());
         if got != expected || leg.start.modes.len() != leg.system.unit_count() {
             return Err(IntegrateError::Start { got, expected });
@@ -50,6 +53,8 @@ impl<T: Task> Lane<T> {
             time: 0.0,
             period: 0,
             periods: leg.periods,
+            parts: options.samples_per_period,
+            part: 0,
             evaluator: Evaluator::new(&leg.system.base()),
             dwell: structure
                 .units
@@ -70,9 +75,24 @@ impl<T: Task> Lane<T> {
         self.period as f64 * self.system.period + self.time
     }
 
-    /// Time left in the period.
+    /// Time of the next sample since the start of the period.
+    fn next_sample(&self) -> f64 {
+        if self.part + 1 == self.parts {
+            self.system.period
+        } else {
+            self.system.period * (f64::from(self.part + 1) / f64::from(self.parts))
+        }
+    }
+
+    /// Whether a step that ends `slot` of `steps` through the period ends at the next sample.
+    pub(crate) fn is_sample(&self, slot: u32, steps: u32) -> bool {
+        let [slot, steps, part, parts] = [slot, steps, self.part + 1, self.parts].map(u64::from);
+        slot * parts >= part * steps
+    }
+
+    /// Time left until the next sample.
     pub(crate) fn left(&self) -> f64 {
-        self.system.period - self.time
+        self.next_sample() - self.time
     }
 
     /// Whether nothing is left to run.
@@ -118,12 +138,12 @@ impl<T: Task> Lane<T> {
         options: &Options,
         length: f64,
         firing: Option<Firing>,
-        period_ends: bool,
+        arrives: bool,
         x: &mut [f64],
     ) -> Next {
         let few_steps = self.pass(options, length);
-        if period_ends {
-            self.time = self.system.period;
+        if arrives {
+            self.time = self.next_sample();
         }
         if let Some(firing) = firing {
             self.switch(firing, x);
@@ -135,8 +155,8 @@ impl<T: Task> Lane<T> {
         if !few_steps {
             return Next::Over(self.too_many_steps());
         }
-        if period_ends {
-            self.end_period(x)
+        if arrives {
+            self.sample(x)
         } else {
             Next::Go
         }
@@ -185,20 +205,22 @@ impl<T: Task> Lane<T> {
         self.recent_switches += 1;
     }
 
-    fn end_period(&mut self, x: &mut [f64]) -> Next {
-        if let Some((cos, sin)) = self.system.structure.drive {
-            (x[cos], x[sin]) = (1.0, 0.0);
-        }
+    /// Takes a sample of `x`, and begins a new period after the last one.
+    fn sample(&mut self, x: &mut [f64]) -> Next {
         for unit in 0..self.entered.len() {
             self.leave(unit);
         }
-        self.entered.fill(0.0);
-        self.time = 0.0;
-        self.period += 1;
-        self.recent_steps = 0;
-        self.recent_switches = 0;
+        self.part += 1;
+        let (period, part, ends) = (self.period + 1, self.part, self.part == self.parts);
+        if ends {
+            if let Some((cos, sin)) = self.system.structure.drive {
+                (x[cos], x[sin]) = (1.0, 0.0);
+            }
+            self.begin_period();
+        }
         let sample = Sample {
-            period: self.period,
+            period,
+            part,
             modes: &self.guarded.modes,
             x,
             dwell: &self.dwell,
@@ -208,12 +230,23 @@ impl<T: Task> Lane<T> {
         if !columns.is_empty() {
             self.task.tangents(columns);
         }
-        self.dwell.iter_mut().for_each(|d| d.fill(0.0));
+        if ends {
+            self.dwell.iter_mut().for_each(|d| d.fill(0.0));
+        }
         if go_on && !self.is_over() {
             Next::Go
         } else {
             Next::Over(Status::Completed)
         }
+    }
+
+    fn begin_period(&mut self) {
+        self.entered.fill(0.0);
+        self.time = 0.0;
+        self.part = 0;
+        self.period += 1;
+        self.recent_steps = 0;
+        self.recent_switches = 0;
     }
 
     /// Reports the end of the leg at state `x`; the task's next one, if any, and the task.

@@ -41,7 +41,7 @@ fn run_leg<T: Task>(
 ) -> Result<(T, Option<Leg>), IntegrateError> {
     let table = BernsteinTable::new(HERMITE);
     let structure = Arc::clone(&leg.system.structure);
-    let mut lane = Lane::new(task, leg)?;
+    let mut lane = Lane::new(task, leg, options)?;
     let mut stepper = Stepper::new(&structure, leg.system.period);
     let mut x = leg.start.x.clone();
     let mut slot = 1;
@@ -93,10 +93,10 @@ fn run_leg<T: Task>(
             });
         }
         let on_grid = firing.is_none_or(|f| f.theta == 1.0);
-        let period_ends = on_grid && slot == steps_per_period;
-        match lane.accept(options, length, firing, period_ends, &mut x) {
+        let arrives = on_grid && lane.is_sample(slot, steps_per_period);
+        match lane.accept(options, length, firing, arrives, &mut x) {
             Next::Over(status) => return Ok(lane.finish(status, &x)),
-            Next::Go if period_ends => slot = 1,
+            Next::Go if arrives && slot == steps_per_period => slot = 1,
             Next::Go if on_grid => slot += 1,
             Next::Go => {}
         }

@@ -90,6 +90,8 @@ pub struct Options {
     pub max_steps: u32,
     /// For tests and for results that are to be the same on other machines.
     pub instructions: Instructions,
+    /// Samples in each period, equally far apart, the last at its end. Steps end on all of them.
+    pub samples_per_period: u32,
 }
 
 impl Default for Options {
@@ -100,6 +102,7 @@ impl Default for Options {
             max_switches: 100,
             max_steps: 1_000_000,
             instructions: Instructions::Best,
+            samples_per_period: 1,
         }
     }
 }
@@ -118,8 +121,10 @@ pub struct Leg {
 /// The state at the end of a period, after any switch at that instant.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample<'a> {
-    /// Periods completed, from 1.
+    /// The period that it belongs to, from 1; completed at its last sample.
     pub period: u64,
+    /// Which sample of the period, from 1 to [`Options::samples_per_period`].
+    pub part: u32,
     /// Mode of each unit.
     pub modes: &'a [Mode],
     /// State, drive and quadratures included.
@@ -370,6 +375,9 @@ impl Options {
             Method::Rk4 {
                 steps_per_period: 0,
             } => fail("steps_per_period", 0.0, "at least one step is needed"),
+            _ if self.samples_per_period == 0 => {
+                fail("samples_per_period", 0.0, "at least one is needed")
+            }
             _ if self.max_switches == 0 => fail("max_switches", 0.0, "at least one is needed"),
             _ if self.max_steps == 0 => fail("max_steps", 0.0, "at least one is needed"),
             _ => Ok(()),

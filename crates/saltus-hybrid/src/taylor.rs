@@ -69,12 +69,12 @@ impl<T: Task> Ensemble<T> {
         stop: &AtomicBool,
         done: &mut dyn FnMut(T),
     ) -> Result<(), IntegrateError> {
-        if let Some(task) = self.occupy(0, task, Some(leg))? {
+        if let Some(task) = self.occupy(0, task, Some(leg), options)? {
             done(task);
         }
         for slot in 0..LANES {
             if self.lanes[slot].is_none() {
-                self.refill(slot, tasks, done)?;
+                self.refill(slot, tasks, done, options)?;
             }
         }
         while self.lanes.iter().any(Option::is_some) {
@@ -89,7 +89,7 @@ impl<T: Task> Ensemble<T> {
             self.kernel.advance();
             for slot in 0..LANES {
                 if let Some(status) = self.book(slot, options) {
-                    self.retire(slot, status, tasks, done)?;
+                    self.retire(slot, status, tasks, done, options)?;
                 }
             }
         }
@@ -102,10 +102,11 @@ impl<T: Task> Ensemble<T> {
         slot: usize,
         tasks: &mut dyn Iterator<Item = T>,
         done: &mut dyn FnMut(T),
+        options: &Options,
     ) -> Result<(), IntegrateError> {
         for mut task in tasks {
             let first = task.begin();
-            match self.occupy(slot, task, first)? {
+            match self.occupy(slot, task, first, options)? {
                 Some(task) => done(task),
                 None => return Ok(()),
             }
@@ -120,13 +121,14 @@ impl<T: Task> Ensemble<T> {
         slot: usize,
         mut task: T,
         mut leg: Option<Leg>,
+        options: &Options,
     ) -> Result<Option<T>, IntegrateError> {
         while let Some(next) = leg {
             let (ours, theirs) = (&self.kernel.structure, &next.system.structure);
             if !Arc::ptr_eq(ours, theirs) && **ours != **theirs {
                 return Err(IntegrateError::Structure);
             }
-            let lane = Lane::new(task, &next)?;
+            let lane = Lane::new(task, &next, options)?;
             if lane.is_over() {
                 (task, leg) = lane.finish(Status::Completed, &next.start.x);
                 continue;
@@ -238,8 +240,8 @@ impl<T: Task> Ensemble<T> {
             return Some(lane.too_many_steps());
         }
         let length = kernel.lengths.0[slot];
-        let period_ends = length >= kernel.left.0[slot];
-        let next = lane.accept(options, length, plan.firing, period_ends, &mut self.x);
+        let arrives = length >= kernel.left.0[slot];
+        let next = lane.accept(options, length, plan.firing, arrives, &mut self.x);
         kernel.set_state(slot, &self.x);
         if plan.firing.is_some() {
             kernel.set_modes(slot, &lane.system, &lane.guarded.modes);
@@ -259,13 +261,14 @@ impl<T: Task> Ensemble<T> {
         status: Status,
         tasks: &mut dyn Iterator<Item = T>,
         done: &mut dyn FnMut(T),
+        options: &Options,
     ) -> Result<(), IntegrateError> {
         if let Some(lane) = self.lanes[slot].take() {
             self.kernel.clear(slot);
             let (task, next) = lane.finish(status, &self.x);
-            if let Some(task) = self.occupy(slot, task, next)? {
+            if let Some(task) = self.occupy(slot, task, next, options)? {
                 done(task);
-                self.refill(slot, tasks, done)?;
+                self.refill(slot, tasks, done, options)?;
             }
         }
         Ok(())
