@@ -6,6 +6,7 @@
 
 mod beyond;
 mod branches;
+mod climb;
 mod continuation;
 mod crossing;
 mod curve;
@@ -24,6 +25,7 @@ mod nature;
 mod orbit;
 mod path;
 mod samples;
+mod settled;
 mod shooting;
 mod special;
 mod surface;
@@ -32,6 +34,7 @@ mod touching;
 mod walk;
 
 pub use branches::{BranchesOptions, Limb, branches};
+pub use climb::{Ascent, ClimbError, Climbed, Start, climb};
 pub use continuation::{Along, Branch, ContinuationError, ContinuationOptions, End, Point};
 pub use curve::{Curve, CurvePoint, follow_curve};
 pub use derived::Differences;
@@ -41,6 +44,7 @@ pub use follow::{follow, follow_both};
 pub use follower::{Follower, spectrum_of};
 pub use map::{Crossing, Family, Image, Lost, Matrix, Place, Shot, Touch};
 pub use nature::{Criteria, Doubt, Nature, Recurrence, Verdict, judge};
-pub use orbit::{Multiplier, NewtonOptions, NotFound, Orbit, find_orbit};
+pub use orbit::{Multiplier, NewtonOptions, NotFound, Orbit, Stability, find_orbit};
 pub use samples::{Closeness, MAX_PERIOD, OnCycle, Samples};
+pub use settled::settled;
 pub use special::{Special, SpecialKind};

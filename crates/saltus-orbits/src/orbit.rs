@@ -38,6 +38,9 @@ pub struct Multiplier {
     pub re: f64,
     /// Imaginary part.
     pub im: f64,
+    /// How far it may be off: the accuracy of the derivative ([`NewtonOptions::tolerance`] of each iterate) times the
+    /// condition of the eigenvalue.
+    pub error: f64,
 }
 
 impl Multiplier {
@@ -49,6 +52,38 @@ impl Multiplier {
     /// Its angle, from -pi to pi (rad).
     pub fn argument(self) -> f64 {
         self.im.atan2(self.re)
+    }
+}
+
+/// Whether an orbit is stable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stability {
+    /// All multipliers lie inside the unit circle.
+    Stable,
+    /// Some lie outside.
+    Unstable,
+    /// None lies outside, and some are so near to the circle that rounding says on which side: at a bifurcation, or
+    /// where a quantity is conserved, which makes a multiplier 1.
+    Neutral,
+}
+
+impl Stability {
+    /// "stable", "unstable" or "neutral".
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Stable => "stable",
+            Self::Unstable => "unstable",
+            Self::Neutral => "neutral",
+        }
+    }
+
+    /// Whether it is stable; `None` if neutral.
+    pub fn is_stable(self) -> Option<bool> {
+        match self {
+            Self::Stable => Some(true),
+            Self::Unstable => Some(false),
+            Self::Neutral => None,
+        }
     }
 }
 
@@ -79,19 +114,39 @@ impl Orbit {
         self.places.len()
     }
 
-    /// How many multipliers lie outside the unit circle.
+    /// How many multipliers lie outside the unit circle, by more than their errors.
     pub fn outside(&self) -> usize {
-        let grows = |multiplier: &&Multiplier| multiplier.modulus() > 1.0;
+        let grows = |m: &&Multiplier| m.modulus() - 1.0 > m.error;
         self.multipliers.iter().filter(grows).count()
     }
 
-    /// Whether all multipliers lie inside the unit circle.
-    pub fn stable(&self) -> bool {
-        self.multipliers.iter().all(|m| m.modulus() < 1.0)
+    /// Whether the multipliers lie inside the unit circle.
+    pub fn stability(&self) -> Stability {
+        let inside = |m: &Multiplier| 1.0 - m.modulus() > m.error;
+        if self.outside() > 0 {
+            Stability::Unstable
+        } else if self.multipliers.iter().all(inside) {
+            Stability::Stable
+        } else {
+            Stability::Neutral
+        }
     }
 
-    /// The orbit of a converged pass, unless its derivative overflows.
-    pub(crate) fn of(pass: &Pass) -> Result<Self, NotFound> {
+    /// Whether all multipliers lie inside the unit circle, by more than their errors.
+    pub fn stable(&self) -> bool {
+        self.stability() == Stability::Stable
+    }
+
+    /// Whether a multiplier is 1 to its error: other orbits lie beside this one, as many as a conserved quantity has
+    /// values, or it is at a fold or a branch point.
+    pub fn in_family(&self) -> bool {
+        let one = |m: &Multiplier| (m.re - 1.0).hypot(m.im) <= m.error;
+        self.multipliers.iter().any(one)
+    }
+
+    /// The orbit of a converged pass, unless its derivative overflows. Derivatives of one iterate are as accurate as
+    /// `tolerance`.
+    pub(crate) fn of(pass: &Pass, tolerance: f64) -> Result<Self, NotFound> {
         let solved = pass
             .around()
             .and_then(|(m, _)| Some((linear::eigenvalues(&m)?, m)));
@@ -101,9 +156,17 @@ impl Orbit {
                 places: pass.places.clone(),
             });
         };
+        let off = tolerance * pass.growth();
+        let (size, power) = (monodromy.norm_l2(), 1.0 / values.len() as f64);
+        // where the condition says nothing, the bound of Elsner (1985)
+        let most = (2.0 * size + off).powf(1.0 - power) * off.powf(power);
         let mut multipliers: Vec<Multiplier> = values
             .into_iter()
-            .map(|(re, im)| Multiplier { re, im })
+            .map(|(re, im, condition)| Multiplier {
+                re,
+                im,
+                error: (condition * off).min(most),
+            })
             .collect();
         multipliers.sort_by(|a, b| {
             let falling = b.modulus().total_cmp(&a.modulus());
@@ -205,24 +268,65 @@ pub fn find_orbit<F: Family + ?Sized>(
     options: &NewtonOptions,
 ) -> Result<Orbit, NotFound> {
     check(family, start)?;
-    let shooting = Shooting {
-        family,
-        free: &[],
-        newton: options,
-        keep_switches: false,
-    };
-    let solve = |places: &[Place]| {
+    let solve = |places: &[Place], kept: Option<&[f64]>| {
         let guess = Guess {
             parameters: parameters.to_vec(),
             places: places.to_vec(),
         };
-        Orbit::of(&shooting.correct(&guess, &[])?)
+        let shooting = Shooting {
+            family,
+            free: &[],
+            newton: options,
+            keep_switches: false,
+            kept,
+        };
+        let pass = shooting.correct(&guess, &[])?;
+        Ok(Found {
+            orbit: Orbit::of(&pass, options.tolerance)?,
+            kept: pass.kept(),
+        })
     };
-    let orbit = solve(start)?;
-    match shortest_period(&orbit.places) {
-        period if period == orbit.period() => Ok(orbit),
-        period => solve(&orbit.places[..period]),
-    }
+    let shortest = |found: Found, kept: Option<&[f64]>| {
+        let orbit = &found.orbit;
+        match shortest_period(&orbit.places) {
+            period if period == orbit.period() => Ok(found),
+            period => solve(&orbit.places[..period], kept),
+        }
+    };
+    let first = solve(start, None).and_then(|found| shortest(found, None));
+    let kept = match &first {
+        Ok(found) if found.orbit.in_family() => found.kept.clone(),
+        Err(NotFound::Singular { places, .. }) => {
+            let shooting = Shooting {
+                family,
+                free: &[],
+                newton: options,
+                keep_switches: false,
+                kept: None,
+            };
+            let guess = Guess {
+                parameters: parameters.to_vec(),
+                places: places.clone(),
+            };
+            shooting.pass(&guess).ok().and_then(|pass| pass.kept())
+        }
+        _ => None,
+    };
+    let Some(kept) = kept else {
+        return first.map(|found| found.orbit);
+    };
+    let count = first.as_ref().map_or(start.len(), |found| found.orbit.period());
+    let again = solve(&start[..count], Some(&kept)).and_then(|found| shortest(found, Some(&kept)));
+    again
+        .ok()
+        .filter(|found| found.orbit.in_family())
+        .map_or_else(|| first.map(|found| found.orbit), |found| Ok(found.orbit))
+}
+
+/// An orbit, and the gradient of what is kept once around it.
+struct Found {
+    orbit: Orbit,
+    kept: Option<Vec<f64>>,
 }
 
 /// Whether Newton's method can begin at a start.
