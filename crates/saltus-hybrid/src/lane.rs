@@ -155,11 +155,7 @@ impl<T: Task> Lane<T> {
         if !few_steps {
             return Next::Over(self.too_many_steps());
         }
-        if arrives {
-            self.sample(x)
-        } else {
-            Next::Go
-        }
+        if arrives { self.sample(x) } else { Next::Go }
     }
 
     pub(crate) fn too_many_steps(&self) -> Status {

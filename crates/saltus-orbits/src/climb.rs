@@ -69,7 +69,11 @@ pub fn climb<W: FnMut(&Sample<'_>) + Send>(
     stop: &AtomicBool,
 ) -> Result<Vec<Climbed>, ClimbError> {
     let make = |(number, start)| Climb::new(number, start, how, options);
-    let mut open = starts.into_iter().enumerate().map(make).collect::<Result<Vec<_>, _>>()?;
+    let mut open = starts
+        .into_iter()
+        .enumerate()
+        .map(make)
+        .collect::<Result<Vec<_>, _>>()?;
     let mut done: Vec<(usize, Climbed)> = Vec::with_capacity(open.len());
     while let Some(parts) = open.iter().map(|climb| climb.parts).min() {
         let (now, later) = open.into_iter().partition(|climb| climb.parts == parts);
@@ -176,7 +180,9 @@ impl<W: FnMut(&Sample<'_>) + Send> Climb<W> {
 impl<W: FnMut(&Sample<'_>) + Send> Task for Climb<W> {
     fn begin(&mut self) -> Option<Leg> {
         let states = self.system.declared_len();
-        let mut start = self.system.point(&self.start.modes, &self.start.x[..states]);
+        let mut start = self
+            .system
+            .point(&self.start.modes, &self.start.x[..states]);
         let columns = self.spectrum.start_columns();
         let to = self.system.columns_mut(&mut start.x);
         to.copy_from_slice(&columns);

@@ -42,7 +42,11 @@ pub(crate) fn eigenvalues(a: &Matrix) -> Option<Vec<(f64, f64, f64)>> {
     let condition = |j: usize| {
         let length = vectors.col(j).norm_l2() * dual.row(j).norm_l2();
         // no vectors of its own
-        if length.is_finite() { length } else { f64::INFINITY }
+        if length.is_finite() {
+            length
+        } else {
+            f64::INFINITY
+        }
     };
     let value = |j: usize| (values[j].re, values[j].im, condition(j));
     Some((0..a.nrows()).map(value).collect())

@@ -315,7 +315,9 @@ pub fn find_orbit<F: Family + ?Sized>(
     let Some(kept) = kept else {
         return first.map(|found| found.orbit);
     };
-    let count = first.as_ref().map_or(start.len(), |found| found.orbit.period());
+    let count = first
+        .as_ref()
+        .map_or(start.len(), |found| found.orbit.period());
     let again = solve(&start[..count], Some(&kept)).and_then(|found| shortest(found, Some(&kept)));
     again
         .ok()

@@ -151,7 +151,11 @@ impl Pass {
     pub(crate) fn growth(&self) -> f64 {
         let n = self.places[0].x.len();
         let (mut growth, mut before) = (0.0, Matrix::identity(n, n));
-        let derivatives: Vec<&Matrix> = self.images.iter().filter_map(|i| i.derivative.as_ref()).collect();
+        let derivatives: Vec<&Matrix> = self
+            .images
+            .iter()
+            .filter_map(|i| i.derivative.as_ref())
+            .collect();
         // products of all that come after each
         let mut after = vec![1.0];
         let mut product = Matrix::identity(n, n);
@@ -186,7 +190,10 @@ impl Pass {
         });
         let (_, gap) = self.carried(&vec![0.0; all], 1.0)?;
         let right: Vec<f64> = gap.iter().map(|gap| -gap).chain([0.0]).collect();
-        Some(self.carried(&linear::least_squares(&system, &right)?, 1.0)?.0)
+        Some(
+            self.carried(&linear::least_squares(&system, &right)?, 1.0)?
+                .0,
+        )
     }
 
     /// Newton's step with `rows` (d_1, dp) = 0.

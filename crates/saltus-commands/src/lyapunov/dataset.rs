@@ -48,13 +48,19 @@ pub(super) fn dataset(run: &Run, report: &Report, convergence: &[Running]) -> Da
         "exponent_low",
         &each,
         rates(|e| e.interval[0]),
-        ("Lower end of the interval that holds it with a probability of 0.95", "1"),
+        (
+            "Lower end of the interval that holds it with a probability of 0.95",
+            "1",
+        ),
     ))
     .variable(variable(
         "exponent_high",
         &each,
         rates(|e| e.interval[1]),
-        ("Upper end of the interval that holds it with a probability of 0.95", "1"),
+        (
+            "Upper end of the interval that holds it with a probability of 0.95",
+            "1",
+        ),
     ))
     .variable(variable(
         "running_exponent",

@@ -36,7 +36,8 @@ pub(super) fn text(run: &Run, report: &Report) -> String {
         "exponents",
         match report.from {
             "orbit" => "of the multipliers of the orbit that the motion has come to".to_owned(),
-            _ => "means of the record, with one standard error; nearly twice that holds 95 %".to_owned(),
+            _ => "means of the record, with one standard error; nearly twice that holds 95 %"
+                .to_owned(),
         },
     );
     line("dimension", dimension(report));

@@ -82,7 +82,8 @@ fn stability(report: &Report) -> String {
         (verdict, _) => verdict.to_owned(),
     };
     if report.in_family {
-        verdict + "; a multiplier is 1: other orbits lie beside this one (a quantity is conserved, or a fold is here)"
+        verdict
+            + "; a multiplier is 1: other orbits lie beside this one (a quantity is conserved, or a fold is here)"
     } else {
         verdict
     }

@@ -34,7 +34,8 @@ pub(super) fn write(folder: &mut dyn Store, run: &Run, report: &Report) -> Resul
 
     let header = ["re", "im", "modulus", "error"].map(str::to_owned);
     let rows = report.multipliers.iter().zip(&report.multiplier_errors);
-    let rows = rows.map(|(&[re, im], &error)| [re, im, re.hypot(im), error].map(Value::from).to_vec());
+    let rows =
+        rows.map(|(&[re, im], &error)| [re, im, re.hypot(im), error].map(Value::from).to_vec());
     folder.table("multipliers.csv", &note(&[]), &header, rows)?;
 
     motion::write_switches(folder, &report.switches, &note(&[]))

@@ -144,7 +144,11 @@ impl Spread {
         let products: f64 = means.windows(2).map(|two| two[0] * two[1]).sum();
         Self {
             variance: squares / (count * (count - 1)) as f64,
-            correlation: if squares > 0.0 { products / squares } else { 0.0 },
+            correlation: if squares > 0.0 {
+                products / squares
+            } else {
+                0.0
+            },
             count,
         }
     }

@@ -14,6 +14,10 @@ const POINTS: usize = 150;
 const APART: f64 = 8.0;
 const AIM: f64 = 4.0;
 
+/// A multiplier that tells an exponent to this tells it better than a record does, whatever that claims: a record that
+/// ends within a cycle does not see it.
+const RESOLVED: f64 = 1e-6;
+
 /// Into how many parts a period is cut at most: more than any step needs.
 const MOST_PARTS: u32 = 1 << 16;
 
@@ -245,7 +249,6 @@ impl Spectrum {
         let period = orbit.period() as f64;
         let of_orbit = |multiplier: &crate::Multiplier| {
             let modulus = multiplier.modulus();
-            // an interval of two standard errors is to hold it
             (modulus > 0.0).then(|| Exponent {
                 per_iterate: modulus.ln() / period,
                 standard_error: multiplier.error / modulus / period,
@@ -256,7 +259,7 @@ impl Spectrum {
         let better = |(own, multiplier)| {
             let own: Exponent = own;
             of_orbit(multiplier)
-                .filter(|found| found.standard_error < own.standard_error)
+                .filter(|found| found.standard_error <= own.standard_error.max(RESOLVED))
                 .filter(|_| own.per_iterate.is_finite())
                 .unwrap_or(own)
         };

@@ -20,7 +20,11 @@ const OPTIONS: Options = Options {
 fn linear(rows: &[&[f64]]) -> System {
     let mut b = SystemBuilder::new(rows.len());
     for (i, row) in rows.iter().enumerate() {
-        let terms: Vec<_> = row.iter().enumerate().map(|(j, a)| (*a, b.state(j))).collect();
+        let terms: Vec<_> = row
+            .iter()
+            .enumerate()
+            .map(|(j, a)| (*a, b.state(j)))
+            .collect();
         let rate = b.linear(0.0, &terms);
         b.derivative(i, rate);
     }
@@ -47,7 +51,10 @@ fn assert_are(found: &[Exponent], exact: &[f64], off: f64) {
     for (found, exact) in found.iter().zip(exact) {
         let [low, high] = found.interval();
         assert!(low <= *exact && *exact <= high, "{exact}: {found:?}");
-        assert!((found.per_iterate - exact).abs() < off, "{exact}: {found:?}");
+        assert!(
+            (found.per_iterate - exact).abs() < off,
+            "{exact}: {found:?}"
+        );
         assert!(found.standard_error < 1e3 * off, "{exact}: {found:?}");
     }
 }
@@ -58,7 +65,10 @@ fn stiff_directions_have_the_exponents_of_their_eigenvalues() {
     for (rows, exact) in [
         (&[&[-50.0, 0.0][..], &[0.0, -1.0]][..], &[-1.0, -50.0][..]),
         // neighbours that are no axes
-        (&[&[-200.0, 900.0, 3.0], &[0.0, -1.0, 0.5], &[0.0, 0.0, -0.1]], &[-0.1, -1.0, -200.0]),
+        (
+            &[&[-200.0, 900.0, 3.0], &[0.0, -1.0, 0.5], &[0.0, 0.0, -0.1]],
+            &[-0.1, -1.0, -200.0],
+        ),
         (&[&[20.0, 7.0], &[0.0, -50.0]], &[20.0, -50.0]),
         // more than the range of numbers in both directions
         (&[&[900.0, 0.0], &[5.0, -900.0]], &[900.0, -900.0]),

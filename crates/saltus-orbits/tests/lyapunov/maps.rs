@@ -57,9 +57,16 @@ impl Toy {
 pub(crate) const BANDS: Toy = Toy {
     dimension: 1,
     rule: |p, x| {
-        let (band, at, stay) = (x[0].floor().clamp(0.0, 1.0), x[0] - x[0].floor(), 1.0 - p[0]);
+        let (band, at, stay) = (
+            x[0].floor().clamp(0.0, 1.0),
+            x[0] - x[0].floor(),
+            1.0 - p[0],
+        );
         if at >= stay {
-            return (vec![1.0 - band + ((at - stay) / p[0]).min(1.0 - 1e-15)], vec![1.0 / p[0]]);
+            return (
+                vec![1.0 - band + ((at - stay) / p[0]).min(1.0 - 1e-15)],
+                vec![1.0 / p[0]],
+            );
         }
         let slope = if band == 0.0 { 2.0 } else { 4.0 } / stay;
         (vec![band + (slope * at).fract()], vec![slope])
@@ -132,7 +139,10 @@ pub(crate) const SPIRAL: Toy = Toy {
     rule: |_, x| {
         let (sin, cos) = (0.123_606_797_75 * std::f64::consts::TAU).sin_cos();
         let (c, s) = (0.9 * cos, 0.9 * sin);
-        let next = vec![2.0 * (c * x[0] / 2.0 - s * x[1]) + 0.1 * x[0] * x[0], s * x[0] / 2.0 + c * x[1]];
+        let next = vec![
+            2.0 * (c * x[0] / 2.0 - s * x[1]) + 0.1 * x[0] * x[0],
+            s * x[0] / 2.0 + c * x[1],
+        ];
         (next, vec![c + 0.2 * x[0], -2.0 * s, s / 2.0, c])
     },
 };

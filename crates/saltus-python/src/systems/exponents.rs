@@ -61,7 +61,9 @@ pub(crate) fn run(
                 },
             })
         };
-        let starts = (0..members.count).map(start).collect::<PyResult<Vec<_>>>()?;
+        let starts = (0..members.count)
+            .map(start)
+            .collect::<PyResult<Vec<_>>>()?;
         let periods: Vec<f64> = starts.iter().map(|start| start.system.period()).collect();
         let how = Ascent {
             columns: count,
@@ -91,7 +93,11 @@ pub(crate) fn run(
             let cycle = asked.then(|| settled(&map, parameters, &here)).flatten();
             (periods[index], climbed, cycle)
         };
-        Ok(climbed.into_iter().enumerate().map(told).collect::<Vec<_>>())
+        Ok(climbed
+            .into_iter()
+            .enumerate()
+            .map(told)
+            .collect::<Vec<_>>())
     });
     let (mut exponents, mut errors, mut intervals) = (Vec::new(), Vec::new(), Vec::new());
     let (mut dimension, mut dimension_error) = (Vec::new(), Vec::new());

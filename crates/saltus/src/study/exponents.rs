@@ -150,7 +150,11 @@ pub fn lyapunov(
 
 /// The cycle that a motion is on at a point.
 fn cycle(model: &Model, point: &Point, control: &Control) -> Option<Orbit> {
-    let family = stroboscopic(model, |_: &[f64]| Ok::<_, ModelError>(model.clone()), control);
+    let family = stroboscopic(
+        model,
+        |_: &[f64]| Ok::<_, ModelError>(model.clone()),
+        control,
+    );
     let place = Place {
         modes: point.modes.clone(),
         x: point.x[..model.free_states()].to_vec(),
