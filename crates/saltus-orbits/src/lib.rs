@@ -18,6 +18,7 @@ mod flow;
 mod follow;
 mod follower;
 mod instant;
+mod kept;
 mod linear;
 mod locate;
 mod map;

@@ -1,5 +1,6 @@
 //! Periodic orbits of a map and their Floquet multipliers.
 
+use crate::kept::{Kept, kept};
 use crate::linear::{self, minus, size};
 use crate::shooting::{Guess, Pass, Shooting};
 use crate::{Crossing, Family, Lost, Matrix, Place, Touch};
@@ -257,7 +258,9 @@ impl NotFound {
 ///
 /// Newton's method with multiple shooting; a step is cut as long as it makes the residual grow. The
 /// orbit has the shortest period: a start of four places that leads to a 2-cycle gives two. The first
-/// place of the orbit is the one near `start[0]`. Modes of a start that contradict the motion are replaced.
+/// place of the orbit is the one near `start[0]`. Where orbits lie in a family, since the map keeps a quantity, it is
+/// the one with the value of the start: exactly if the quantity is quadratic, else to first order in the distance
+/// between the two. Modes of a start that contradict the motion are replaced.
 ///
 /// # Errors
 /// If the start is no orbit's start, or no orbit was found: see [`NotFound`].
@@ -268,67 +271,60 @@ pub fn find_orbit<F: Family + ?Sized>(
     options: &NewtonOptions,
 ) -> Result<Orbit, NotFound> {
     check(family, start)?;
-    let solve = |places: &[Place], kept: Option<&[f64]>| {
-        let guess = Guess {
-            parameters: parameters.to_vec(),
-            places: places.to_vec(),
-        };
-        let shooting = Shooting {
-            family,
-            free: &[],
-            newton: options,
-            keep_switches: false,
-            kept,
-        };
-        let pass = shooting.correct(&guess, &[])?;
-        Ok(Found {
-            orbit: Orbit::of(&pass, options.tolerance)?,
-            kept: pass.kept(),
-        })
+    let guess = |places: &[Place]| Guess {
+        parameters: parameters.to_vec(),
+        places: places.to_vec(),
     };
-    let shortest = |found: Found, kept: Option<&[f64]>| {
-        let orbit = &found.orbit;
+    let solve = |places: &[Place], kept: &[Kept]| {
+        let once = |places: &[Place]| {
+            let pass = alone(family, options, kept).correct(&guess(places), &[])?;
+            Orbit::of(&pass, options.tolerance)
+        };
+        let orbit = once(places)?;
         match shortest_period(&orbit.places) {
-            period if period == orbit.period() => Ok(found),
-            period => solve(&orbit.places[..period], kept),
+            period if period == orbit.period() => Ok(orbit),
+            period => once(&orbit.places[..period]),
         }
     };
-    let first = solve(start, None).and_then(|found| shortest(found, None));
-    let kept = match &first {
-        Ok(found) if found.orbit.in_family() => found.kept.clone(),
-        Err(NotFound::Singular { places, .. }) => {
-            let shooting = Shooting {
-                family,
-                free: &[],
-                newton: options,
-                keep_switches: false,
-                kept: None,
-            };
-            let guess = Guess {
-                parameters: parameters.to_vec(),
-                places: places.clone(),
-            };
-            shooting.pass(&guess).ok().and_then(|pass| pass.kept())
-        }
-        _ => None,
+    let first = solve(start, &[]);
+    let places = match &first {
+        Ok(orbit) if orbit.in_family() => &orbit.places,
+        Err(NotFound::Singular { places, .. }) => places,
+        _ => return first,
     };
-    let Some(kept) = kept else {
-        return first.map(|found| found.orbit);
+    // Of a family the member is meant that has what is kept from the start.
+    let linear = || {
+        let slope = alone(family, options, &[])
+            .pass(&guess(places))
+            .ok()?
+            .best_kept()?;
+        Some(vec![Kept::linear(slope, &start[0].x)])
     };
-    let count = first
-        .as_ref()
-        .map_or(start.len(), |found| found.orbit.period());
-    let again = solve(&start[..count], Some(&kept)).and_then(|found| shortest(found, Some(&kept)));
-    again
-        .ok()
-        .filter(|found| found.orbit.in_family())
-        .map_or_else(|| first.map(|found| found.orbit), |found| Ok(found.orbit))
+    let quadratic = kept(family, parameters, &start[0]).filter(|all| !all.is_empty());
+    let Some(all) = quadratic.or_else(linear) else {
+        return first;
+    };
+    match (solve(start, &all).or_else(|_| solve(places, &all)), &first) {
+        (Ok(orbit), _) if orbit.in_family() => Ok(orbit),
+        // any other member is not what was asked for
+        (Err(error), Ok(_)) => Err(error),
+        _ => first,
+    }
 }
 
-/// An orbit, and the gradient of what is kept once around it.
-struct Found {
-    orbit: Orbit,
-    kept: Option<Vec<f64>>,
+/// The equations of an orbit without free parameters.
+fn alone<'a, F: ?Sized>(
+    family: &'a F,
+    newton: &'a NewtonOptions,
+    kept: &'a [Kept],
+) -> Shooting<'a, F> {
+    Shooting {
+        family,
+        free: &[],
+        newton,
+        keep_switches: false,
+        kept,
+    }
 }
 
 /// Whether Newton's method can begin at a start.

@@ -67,7 +67,7 @@ impl<'a, F: Family + ?Sized> Path<'a, F> {
             free: &self.free,
             newton: &self.options.newton,
             keep_switches: false,
-            kept: None,
+            kept: &[],
         }
     }
 

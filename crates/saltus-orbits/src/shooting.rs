@@ -13,6 +13,7 @@
 
 use crate::differences::{DIFFERENCE, moved};
 use crate::events::switches;
+use crate::kept::Kept;
 use crate::linear::{self, minus, plus, size, times};
 use crate::{Family, Image, Lost, Matrix, NewtonOptions, NotFound, Place, Shot};
 
@@ -39,9 +40,9 @@ pub(crate) struct Shooting<'a, F: ?Sized> {
     /// Whether steps that change the switches are refused. With a square root in the map steps from the side
     /// with an impact end beyond it, on the other side, where there may be no orbit.
     pub(crate) keep_switches: bool,
-    /// Gradient of a quantity that steps keep, where orbits lie in a family of them with its values: without a free
-    /// parameter the equations for a step have many solutions there, and this is the one more that is needed.
-    pub(crate) kept: Option<&'a [f64]>,
+    /// Quantities whose values an orbit is to have, one of a family of them: without a free parameter the equations for
+    /// a step have many solutions there, and these say which.
+    pub(crate) kept: &'a [Kept],
 }
 
 /// An orbit to begin with.
@@ -171,25 +172,30 @@ impl Pass {
     }
 
     /// Gradient of the quantity that one way round keeps best: v with v (M - I) nearest to zero.
-    pub(crate) fn kept(&self) -> Option<Vec<f64>> {
+    pub(crate) fn best_kept(&self) -> Option<Vec<f64>> {
         let (m, _) = self.around()?;
         let equations = linear::shifted(&m, 1.0);
         linear::null_space(&equations.transpose().to_owned(), 1)?.pop()
     }
 
-    /// Newton's step that keeps a quantity with the gradient `kept`.
-    fn step_within(&self, kept: &[f64]) -> Option<Change> {
+    /// Newton's step to where some quantities have their values.
+    fn step_to(&self, kept: &[Kept]) -> Option<Change> {
         let equations = self.equations()?;
         let (n, all) = (equations.nrows(), equations.ncols());
-        let system = Matrix::from_fn(n + 1, all, |row, col| {
+        let x = &self.places[0].x;
+        let slopes: Vec<Vec<f64>> = kept.iter().map(|kept| kept.slope(x)).collect();
+        let system = Matrix::from_fn(n + kept.len(), all, |row, col| {
             if row < n {
                 equations[(row, col)]
             } else {
-                kept[col]
+                slopes[row - n][col]
             }
         });
         let (_, gap) = self.carried(&vec![0.0; all], 1.0)?;
-        let right: Vec<f64> = gap.iter().map(|gap| -gap).chain([0.0]).collect();
+        let right = gap.iter().map(|gap| -gap);
+        let right: Vec<f64> = right
+            .chain(kept.iter().map(|kept| kept.missing(x)))
+            .collect();
         Some(
             self.carried(&linear::least_squares(&system, &right)?, 1.0)?
                 .0,
@@ -285,9 +291,10 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
 
     /// The end of the longest part of a Newton step that makes the gaps smaller, if there is one.
     fn better(&self, pass: &Pass, rows: &[Vec<f64>]) -> Result<Option<Pass>, NotFound> {
-        let step = match self.kept {
-            Some(kept) => pass.step_within(kept),
-            None => pass.step(rows),
+        let step = if self.kept.is_empty() {
+            pass.step(rows)
+        } else {
+            pass.step_to(self.kept)
         };
         let step = step.ok_or_else(|| NotFound::Singular {
             residual: pass.residual,

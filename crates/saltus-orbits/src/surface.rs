@@ -57,7 +57,7 @@ impl<F: Family + ?Sized> Surface<'_, F> {
             free: &self.free,
             newton: &self.options.newton,
             keep_switches: false,
-            kept: None,
+            kept: &[],
         }
     }
 
