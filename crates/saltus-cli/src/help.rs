@@ -197,8 +197,17 @@ JSON (--json, and orbit.json in --out):
                   `saltus simulate`: z, v, w, phase
   multipliers     Floquet multipliers [re, im] of the whole orbit, by falling
                   modulus
-  stable          whether all of them lie inside the unit circle
-  outside         how many lie outside
+  multiplier_errors
+                  how far each may be off: 1e-11 of the derivative of a period,
+                  times the condition of the eigenvalue
+  stability       \"stable\": all inside the unit circle; \"unstable\": some
+                  outside; \"neutral\": none outside, and some so near to it that
+                  rounding says on which side
+  stable          true, false, or null if neutral
+  outside         how many lie outside, by more than their errors
+  in_family       whether one is 1 to its error: other orbits lie beside this
+                  one, as where a quantity is conserved; Newton's steps keep its
+                  value to first order
   switches        once around, as in `saltus simulate`: time (s) since the first
                   point, jumper, kind
   sequence        the order of its switches: T take-off, L landing (with the
@@ -250,7 +259,8 @@ JSON (--json, and continue.json in --out):
                   units of the model) restart it
   branches        branch (from 0), origin (label of the special point where it
                   begins; null for the first), period, ends (two, in words) and
-    points        in their order along the branch: value, stable, outside,
+    points        in their order along the branch: value, stable (null if
+                  neutral, as in `saltus orbit`), outside,
                   multiplier (the largest, [re, im]), sequence, section
   complete        false if there are more branches than are followed
   curves          label, kind, ends (two, in words), error (null, or why there
@@ -268,9 +278,10 @@ Folder (--out):
 /// Below `saltus lyapunov --help`.
 pub(crate) const LYAPUNOV: &str = "\
 The motion from [start] is run for lyapunov.transient forcing periods. From
-there on lyapunov.replicas pieces of it, each lyapunov.periods long, are run
-side by side with the tangent flow; a switch multiplies that by its saltation
-matrix. An exponent is the mean growth of a small deviation, natural logarithm,
+there on lyapunov.replicas pieces of it, one after the other and each
+lyapunov.periods long, are run side by side with the tangent flow; a switch
+multiplies that by its saltation matrix. Columns that part by more than rounding
+allows within a period are kept apart as often as it takes. An exponent is the mean growth of a small deviation, natural logarithm,
 per forcing period. The drive keeps its phase: its exponent, 0, is not counted.
 All exponents of plate.inertia = \"full\" take hours where those of \"condensed\"
 take seconds; lyapunov.exponents = 1 asks for the largest alone.
@@ -282,11 +293,17 @@ JSON (--json, and lyapunov.json in --out):
     confidence    that the test behind the name did not come out by chance; if
                   undecided, that the largest exponent has the sign it shows
     text          what the name means, or why there is none and what may help
+  from            \"orbit\": the motion has come to a cycle, and exponents are
+                  those of its multipliers; \"record\": means of the record
   exponents       the largest first, but for their errors:
     per_period    per forcing period; null for -inf, a direction that shrinks
-                  to nothing in one period, as a relaxing leg at touch-down
+                  to nothing at a switch, as a relaxing leg at touch-down
     standard_error
-                  from batches; null if the record is too short for one
+                  from 20 batches of the whole record, rounding included; null
+                  if the record is too short for one
+    interval      [low, high]: holds the true value with a probability of 0.95,
+                  by Student's t, if the motion forgets where it was within a
+                  twentieth of the record
     per_second, per_second_error
                   the same in 1/s
   sum             of these exponents, likewise

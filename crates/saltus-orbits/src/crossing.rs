@@ -53,7 +53,11 @@ impl<F: Family + ?Sized> Path<'_, F> {
         }
         let parameter = cubic(&|point| point.parameter, low);
         guess.parameters[self.free[0].index] = parameter;
-        let orbit = Orbit::of(&self.shooting().pass(&guess).ok()?).ok()?;
+        let orbit = Orbit::of(
+            &self.shooting().pass(&guess).ok()?,
+            self.options.newton.tolerance,
+        )
+        .ok()?;
         Some(Special {
             label: String::new(),
             kind: SpecialKind::BranchPoint,

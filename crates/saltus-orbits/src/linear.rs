@@ -2,7 +2,7 @@
 //! nothing otherwise.
 
 use crate::Matrix;
-use faer::linalg::solvers::{PartialPivLu, Solve};
+use faer::linalg::solvers::{DenseSolveCore, PartialPivLu, Solve, SolveLstsq};
 
 /// A pivot below this part of the largest one (or of 1, the size of the identity in M - I) says that a
 /// system has no solution worth the name: rounding alone makes pivots of some 1e-15.
@@ -30,13 +30,38 @@ pub(crate) fn solve(a: &Matrix, b: &[f64]) -> Option<Vec<f64>> {
     x.iter().all(|value| value.is_finite()).then_some(x)
 }
 
-/// Eigenvalues as (real part, imaginary part), unless A is not finite or the iteration fails.
-pub(crate) fn eigenvalues(a: &Matrix) -> Option<Vec<(f64, f64)>> {
+/// Eigenvalues as (real part, imaginary part, condition), unless A is not finite or the iteration fails. A change of A
+/// by d changes an eigenvalue by its condition times |d| at most, to first order.
+pub(crate) fn eigenvalues(a: &Matrix) -> Option<Vec<(f64, f64, f64)>> {
     if !is_finite(a) {
         return None;
     }
-    let values = a.eigenvalues().ok()?;
-    Some(values.iter().map(|value| (value.re, value.im)).collect())
+    let eigen = a.eigen().ok()?;
+    let (values, vectors) = (eigen.S().column_vector(), eigen.U());
+    let dual = vectors.partial_piv_lu().inverse();
+    let condition = |j: usize| {
+        let length = vectors.col(j).norm_l2() * dual.row(j).norm_l2();
+        // no vectors of its own
+        if length.is_finite() {
+            length
+        } else {
+            f64::INFINITY
+        }
+    };
+    let value = |j: usize| (values[j].re, values[j].im, condition(j));
+    Some((0..a.nrows()).map(value).collect())
+}
+
+/// The x for which A x is nearest to b, for A with more rows than columns, unless something is not finite.
+pub(crate) fn least_squares(a: &Matrix, b: &[f64]) -> Option<Vec<f64>> {
+    if !is_finite(a) || b.iter().any(|value| !value.is_finite()) {
+        return None;
+    }
+    let x = a
+        .qr()
+        .solve_lstsq(Matrix::from_fn(b.len(), 1, |row, _| b[row]));
+    let x: Vec<f64> = (0..a.ncols()).map(|row| x[(row, 0)]).collect();
+    x.iter().all(|value| value.is_finite()).then_some(x)
 }
 
 /// The unit vector that A shortens most, for A with one column more than rows. Where A shortens a whole

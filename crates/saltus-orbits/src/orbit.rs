@@ -1,5 +1,6 @@
 //! Periodic orbits of a map and their Floquet multipliers.
 
+use crate::kept::{Kept, kept};
 use crate::linear::{self, minus, size};
 use crate::shooting::{Guess, Pass, Shooting};
 use crate::{Crossing, Family, Lost, Matrix, Place, Touch};
@@ -38,6 +39,9 @@ pub struct Multiplier {
     pub re: f64,
     /// Imaginary part.
     pub im: f64,
+    /// How far it may be off: the accuracy of the derivative ([`NewtonOptions::tolerance`] of each iterate) times the
+    /// condition of the eigenvalue.
+    pub error: f64,
 }
 
 impl Multiplier {
@@ -49,6 +53,38 @@ impl Multiplier {
     /// Its angle, from -pi to pi (rad).
     pub fn argument(self) -> f64 {
         self.im.atan2(self.re)
+    }
+}
+
+/// Whether an orbit is stable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stability {
+    /// All multipliers lie inside the unit circle.
+    Stable,
+    /// Some lie outside.
+    Unstable,
+    /// None lies outside, and some are so near to the circle that rounding says on which side: at a bifurcation, or
+    /// where a quantity is conserved, which makes a multiplier 1.
+    Neutral,
+}
+
+impl Stability {
+    /// "stable", "unstable" or "neutral".
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Stable => "stable",
+            Self::Unstable => "unstable",
+            Self::Neutral => "neutral",
+        }
+    }
+
+    /// Whether it is stable; `None` if neutral.
+    pub fn is_stable(self) -> Option<bool> {
+        match self {
+            Self::Stable => Some(true),
+            Self::Unstable => Some(false),
+            Self::Neutral => None,
+        }
     }
 }
 
@@ -79,19 +115,39 @@ impl Orbit {
         self.places.len()
     }
 
-    /// How many multipliers lie outside the unit circle.
+    /// How many multipliers lie outside the unit circle, by more than their errors.
     pub fn outside(&self) -> usize {
-        let grows = |multiplier: &&Multiplier| multiplier.modulus() > 1.0;
+        let grows = |m: &&Multiplier| m.modulus() - 1.0 > m.error;
         self.multipliers.iter().filter(grows).count()
     }
 
-    /// Whether all multipliers lie inside the unit circle.
-    pub fn stable(&self) -> bool {
-        self.multipliers.iter().all(|m| m.modulus() < 1.0)
+    /// Whether the multipliers lie inside the unit circle.
+    pub fn stability(&self) -> Stability {
+        let inside = |m: &Multiplier| 1.0 - m.modulus() > m.error;
+        if self.outside() > 0 {
+            Stability::Unstable
+        } else if self.multipliers.iter().all(inside) {
+            Stability::Stable
+        } else {
+            Stability::Neutral
+        }
     }
 
-    /// The orbit of a converged pass, unless its derivative overflows.
-    pub(crate) fn of(pass: &Pass) -> Result<Self, NotFound> {
+    /// Whether all multipliers lie inside the unit circle, by more than their errors.
+    pub fn stable(&self) -> bool {
+        self.stability() == Stability::Stable
+    }
+
+    /// Whether a multiplier is 1 to its error: other orbits lie beside this one, as many as a conserved quantity has
+    /// values, or it is at a fold or a branch point.
+    pub fn in_family(&self) -> bool {
+        let one = |m: &Multiplier| (m.re - 1.0).hypot(m.im) <= m.error;
+        self.multipliers.iter().any(one)
+    }
+
+    /// The orbit of a converged pass, unless its derivative overflows. Derivatives of one iterate are as accurate as
+    /// `tolerance`.
+    pub(crate) fn of(pass: &Pass, tolerance: f64) -> Result<Self, NotFound> {
         let solved = pass
             .around()
             .and_then(|(m, _)| Some((linear::eigenvalues(&m)?, m)));
@@ -101,9 +157,17 @@ impl Orbit {
                 places: pass.places.clone(),
             });
         };
+        let off = tolerance * pass.growth();
+        let (size, power) = (monodromy.norm_l2(), 1.0 / values.len() as f64);
+        // where the condition says nothing, the bound of Elsner (1985)
+        let most = (2.0 * size + off).powf(1.0 - power) * off.powf(power);
         let mut multipliers: Vec<Multiplier> = values
             .into_iter()
-            .map(|(re, im)| Multiplier { re, im })
+            .map(|(re, im, condition)| Multiplier {
+                re,
+                im,
+                error: (condition * off).min(most),
+            })
             .collect();
         multipliers.sort_by(|a, b| {
             let falling = b.modulus().total_cmp(&a.modulus());
@@ -194,7 +258,9 @@ impl NotFound {
 ///
 /// Newton's method with multiple shooting; a step is cut as long as it makes the residual grow. The
 /// orbit has the shortest period: a start of four places that leads to a 2-cycle gives two. The first
-/// place of the orbit is the one near `start[0]`. Modes of a start that contradict the motion are replaced.
+/// place of the orbit is the one near `start[0]`. Where orbits lie in a family, since the map keeps a quantity, it is
+/// the one with the value of the start: exactly if the quantity is quadratic, else to first order in the distance
+/// between the two. Modes of a start that contradict the motion are replaced.
 ///
 /// # Errors
 /// If the start is no orbit's start, or no orbit was found: see [`NotFound`].
@@ -205,23 +271,59 @@ pub fn find_orbit<F: Family + ?Sized>(
     options: &NewtonOptions,
 ) -> Result<Orbit, NotFound> {
     check(family, start)?;
-    let shooting = Shooting {
+    let guess = |places: &[Place]| Guess {
+        parameters: parameters.to_vec(),
+        places: places.to_vec(),
+    };
+    let solve = |places: &[Place], kept: &[Kept]| {
+        let once = |places: &[Place]| {
+            let pass = alone(family, options, kept).correct(&guess(places), &[])?;
+            Orbit::of(&pass, options.tolerance)
+        };
+        let orbit = once(places)?;
+        match shortest_period(&orbit.places) {
+            period if period == orbit.period() => Ok(orbit),
+            period => once(&orbit.places[..period]),
+        }
+    };
+    let first = solve(start, &[]);
+    let places = match &first {
+        Ok(orbit) if orbit.in_family() => &orbit.places,
+        Err(NotFound::Singular { places, .. }) => places,
+        _ => return first,
+    };
+    // Of a family the member is meant that has what is kept from the start.
+    let linear = || {
+        let slope = alone(family, options, &[])
+            .pass(&guess(places))
+            .ok()?
+            .best_kept()?;
+        Some(vec![Kept::linear(slope, &start[0].x)])
+    };
+    let quadratic = kept(family, parameters, &start[0]).filter(|all| !all.is_empty());
+    let Some(all) = quadratic.or_else(linear) else {
+        return first;
+    };
+    match (solve(start, &all).or_else(|_| solve(places, &all)), &first) {
+        (Ok(orbit), _) if orbit.in_family() => Ok(orbit),
+        // any other member is not what was asked for
+        (Err(error), Ok(_)) => Err(error),
+        _ => first,
+    }
+}
+
+/// The equations of an orbit without free parameters.
+fn alone<'a, F: ?Sized>(
+    family: &'a F,
+    newton: &'a NewtonOptions,
+    kept: &'a [Kept],
+) -> Shooting<'a, F> {
+    Shooting {
         family,
         free: &[],
-        newton: options,
+        newton,
         keep_switches: false,
-    };
-    let solve = |places: &[Place]| {
-        let guess = Guess {
-            parameters: parameters.to_vec(),
-            places: places.to_vec(),
-        };
-        Orbit::of(&shooting.correct(&guess, &[])?)
-    };
-    let orbit = solve(start)?;
-    match shortest_period(&orbit.places) {
-        period if period == orbit.period() => Ok(orbit),
-        period => solve(&orbit.places[..period]),
+        kept,
     }
 }
 

@@ -67,6 +67,7 @@ impl<'a, F: Family + ?Sized> Path<'a, F> {
             free: &self.free,
             newton: &self.options.newton,
             keep_switches: false,
+            kept: &[],
         }
     }
 
@@ -102,7 +103,7 @@ impl<'a, F: Family + ?Sized> Path<'a, F> {
     }
 
     pub(crate) fn point(&self, pass: &Pass, ahead: &[f64]) -> Result<Point, NotFound> {
-        let orbit = Orbit::of(pass)?;
+        let orbit = Orbit::of(pass, self.options.newton.tolerance)?;
         let singular = || NotFound::Singular {
             residual: pass.residual,
             places: pass.places.clone(),

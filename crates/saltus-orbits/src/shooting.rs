@@ -13,6 +13,7 @@
 
 use crate::differences::{DIFFERENCE, moved};
 use crate::events::switches;
+use crate::kept::Kept;
 use crate::linear::{self, minus, plus, size, times};
 use crate::{Family, Image, Lost, Matrix, NewtonOptions, NotFound, Place, Shot};
 
@@ -39,6 +40,9 @@ pub(crate) struct Shooting<'a, F: ?Sized> {
     /// Whether steps that change the switches are refused. With a square root in the map steps from the side
     /// with an impact end beyond it, on the other side, where there may be no orbit.
     pub(crate) keep_switches: bool,
+    /// Quantities whose values an orbit is to have, one of a family of them: without a free parameter the equations for
+    /// a step have many solutions there, and these say which.
+    pub(crate) kept: &'a [Kept],
 }
 
 /// An orbit to begin with.
@@ -144,6 +148,60 @@ impl Pass {
         Some(self.carried(tangent, 0.0)?.0)
     }
 
+    /// By how much errors of single derivatives, relative to their sizes, may change that of the whole way round.
+    pub(crate) fn growth(&self) -> f64 {
+        let n = self.places[0].x.len();
+        let (mut growth, mut before) = (0.0, Matrix::identity(n, n));
+        let derivatives: Vec<&Matrix> = self
+            .images
+            .iter()
+            .filter_map(|i| i.derivative.as_ref())
+            .collect();
+        // products of all that come after each
+        let mut after = vec![1.0];
+        let mut product = Matrix::identity(n, n);
+        for a in derivatives.iter().skip(1).rev() {
+            product = &product * *a;
+            after.push(product.norm_l2());
+        }
+        for (a, after) in derivatives.iter().zip(after.into_iter().rev()) {
+            growth += after * a.norm_l2() * before.norm_l2();
+            before = *a * &before;
+        }
+        growth
+    }
+
+    /// Gradient of the quantity that one way round keeps best: v with v (M - I) nearest to zero.
+    pub(crate) fn best_kept(&self) -> Option<Vec<f64>> {
+        let (m, _) = self.around()?;
+        let equations = linear::shifted(&m, 1.0);
+        linear::null_space(&equations.transpose().to_owned(), 1)?.pop()
+    }
+
+    /// Newton's step to where some quantities have their values.
+    fn step_to(&self, kept: &[Kept]) -> Option<Change> {
+        let equations = self.equations()?;
+        let (n, all) = (equations.nrows(), equations.ncols());
+        let x = &self.places[0].x;
+        let slopes: Vec<Vec<f64>> = kept.iter().map(|kept| kept.slope(x)).collect();
+        let system = Matrix::from_fn(n + kept.len(), all, |row, col| {
+            if row < n {
+                equations[(row, col)]
+            } else {
+                slopes[row - n][col]
+            }
+        });
+        let (_, gap) = self.carried(&vec![0.0; all], 1.0)?;
+        let right = gap.iter().map(|gap| -gap);
+        let right: Vec<f64> = right
+            .chain(kept.iter().map(|kept| kept.missing(x)))
+            .collect();
+        Some(
+            self.carried(&linear::least_squares(&system, &right)?, 1.0)?
+                .0,
+        )
+    }
+
     /// Newton's step with `rows` (d_1, dp) = 0.
     fn step(&self, rows: &[Vec<f64>]) -> Option<Change> {
         let equations = self.equations()?;
@@ -233,7 +291,12 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
 
     /// The end of the longest part of a Newton step that makes the gaps smaller, if there is one.
     fn better(&self, pass: &Pass, rows: &[Vec<f64>]) -> Result<Option<Pass>, NotFound> {
-        let step = pass.step(rows).ok_or_else(|| NotFound::Singular {
+        let step = if self.kept.is_empty() {
+            pass.step(rows)
+        } else {
+            pass.step_to(self.kept)
+        };
+        let step = step.ok_or_else(|| NotFound::Singular {
             residual: pass.residual,
             places: pass.places.clone(),
         })?;

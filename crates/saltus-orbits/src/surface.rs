@@ -57,12 +57,13 @@ impl<F: Family + ?Sized> Surface<'_, F> {
             free: &self.free,
             newton: &self.options.newton,
             keep_switches: false,
+            kept: &[],
         }
     }
 
     /// psi, and the pair of multipliers it belongs to: the one nearest to `before`.
     pub(crate) fn spot(&self, pass: Pass, before: Option<Multiplier>) -> Result<Spot, NotFound> {
-        let orbit = Orbit::of(&pass)?;
+        let orbit = Orbit::of(&pass, self.options.newton.tolerance)?;
         let off = |mu: &Multiplier| before.map_or(0.0, |b| (mu.re - b.re).hypot(mu.im - b.im));
         let upper = orbit.multipliers.iter().filter(|mu| mu.im > 0.0).copied();
         let pair = upper.min_by(|a, b| off(a).total_cmp(&off(b)));

@@ -99,7 +99,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
         tangent: impl FnOnce(&crate::Matrix) -> Option<Vec<f64>>,
     ) -> Option<Point> {
         let pass = self.shooting().pass(guess).ok()?;
-        let orbit = Orbit::of(&pass).ok()?;
+        let orbit = Orbit::of(&pass, self.options.newton.tolerance).ok()?;
         let tangent = tangent(&pass.equations()?)?;
         Some(Point {
             parameter: orbit.parameters[self.free[0].index],

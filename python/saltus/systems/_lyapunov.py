@@ -31,7 +31,13 @@ class Exponents:
         Mean growth per unit of time (natural logarithm), the largest first but for their errors;
         NaN for a trajectory that ended early.
     standard_errors : ndarray of float, shape (..., count)
-        Their standard errors, from batches; infinite for fewer than 20 periods.
+        Their standard errors, from 20 batches of the record, rounding included; infinite for fewer than
+        20 periods.
+    intervals : ndarray of float, shape (..., count, 2)
+        Lower and upper end of the intervals that hold the true values with a probability of 0.95, by
+        Student's t, if the motion forgets where it was within a twentieth of the record.
+    on_cycle : ndarray of bool, shape (...)
+        Whether the motion has come to a cycle; its exponents are those of the multipliers then.
     dimension : ndarray of float, shape (...)
         Kaplan-Yorke dimension; NaN where the record does not tell it.
     dimension_error : ndarray of float, shape (...)
@@ -42,6 +48,8 @@ class Exponents:
 
     exponents: NDArray[np.float64]
     standard_errors: NDArray[np.float64]
+    intervals: NDArray[np.float64]
+    on_cycle: NDArray[np.bool_]
     dimension: NDArray[np.float64]
     dimension_error: NDArray[np.float64]
     status: NDArray[np.str_]
@@ -65,7 +73,8 @@ def lyapunov(
     """Lyapunov exponents of many members, by tangent columns kept orthonormal.
 
     Benettin, Galgani, Giorgilli & Strelcyn, Meccanica 15 (1980) 9. A switch multiplies the columns by
-    its saltation matrix.
+    its saltation matrix. Columns that part by more than rounding allows within a period are kept apart
+    as often as it takes.
 
     Parameters
     ----------
@@ -114,6 +123,8 @@ def lyapunov(
     return Exponents(
         exponents=told(raw.exponents, some),
         standard_errors=told(raw.standard_errors, some),
+        intervals=told(raw.intervals, some, 2),
+        on_cycle=np.array(raw.on_cycle, dtype=np.bool_).reshape(shape),
         dimension=told(raw.dimension),
         dimension_error=told(raw.dimension_error),
         status=status,

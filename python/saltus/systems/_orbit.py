@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -34,6 +35,14 @@ class Orbit:
         The modes there.
     multipliers : ndarray of complex, shape (states,)
         Floquet multipliers, by falling modulus.
+    multiplier_errors : ndarray of float, shape (states,)
+        How far each may be off: `tolerance` of the derivative times the condition of the eigenvalue.
+    stability : {"stable", "unstable", "neutral"}
+        Whether all multipliers lie inside the unit circle, or some outside, or none outside and some
+        so near to it that rounding says on which side.
+    in_family : bool
+        Whether a multiplier is 1 to its error: other orbits lie beside this one, as many as a conserved
+        quantity has values.
     monodromy : ndarray of float, shape (states, states)
         Derivative of the stroboscopic map once around, at the first place.
     switch_time : ndarray of float, shape (switches,)
@@ -50,6 +59,9 @@ class Orbit:
     states: NDArray[np.float64]
     modes: NDArray[np.uint8]
     multipliers: NDArray[np.complex128]
+    multiplier_errors: NDArray[np.float64]
+    stability: Literal["stable", "unstable", "neutral"]
+    in_family: bool
     monodromy: NDArray[np.float64]
     switch_time: NDArray[np.float64]
     switch_unit: NDArray[np.int64]
@@ -59,9 +71,9 @@ class Orbit:
     iterations: int
 
     @property
-    def stable(self) -> bool:
-        """Whether all multipliers lie inside the unit circle."""
-        return bool((np.abs(self.multipliers) < 1.0).all())
+    def stable(self) -> bool | None:
+        """Whether the orbit is stable; None if it is neutral."""
+        return None if self.stability == "neutral" else self.stability == "stable"
 
 
 def find_orbit(
@@ -109,6 +121,12 @@ def find_orbit(
     ------
     ComputationError
         If no orbit was found; the message says how far the method came.
+
+    Warns
+    -----
+    UserWarning
+        If the orbit is one of a family. Newton's steps then keep the conserved quantity of the start, to
+        first order in the distance between the start and the orbit.
     """
     members = Members.of(system, np.atleast_2d(reals("start", start)), modes, parameters)
     if len(members.shape) != 1 or members.shape[0] == 0:
@@ -130,6 +148,12 @@ def find_orbit(
         iterations=whole("iterations", iterations, 1, 2**31),
         settings=Options(method, max_switches, threads),
     )
+    if raw.in_family:
+        warnings.warn(
+            "the orbit is one of a family: a Floquet multiplier is 1, as where a quantity is conserved; "
+            "which member is found follows from the start",
+            stacklevel=2,
+        )
     n = len(system.states)
     when, *what = zip(*raw.switches, strict=True) if raw.switches else ((), (), (), ())
     unit, source, target = (np.array(one, dtype=np.int64) for one in what)
@@ -138,6 +162,9 @@ def find_orbit(
         states=raw.places.reshape(raw.period, n),
         modes=raw.modes.reshape(raw.period, len(system.modes)),
         multipliers=np.array([complex(re, im) for re, im in raw.multipliers], dtype=np.complex128),
+        multiplier_errors=np.array(raw.multiplier_errors, dtype=np.float64),
+        stability=raw.stability,
+        in_family=raw.in_family,
         monodromy=raw.monodromy.reshape(n, n),
         switch_time=np.array(when, dtype=np.float64),
         switch_unit=unit,

@@ -6,7 +6,7 @@ use super::report::Report;
 use super::view::Seen;
 use crate::dataset::{about, motion, name, numbered, texts, values, variable, wholes};
 use saltus::model::Section;
-use saltus::orbits::{Multiplier, Point};
+use saltus::orbits::{Multiplier, Point, Stability};
 use saltus_results::{Dataset, Variable};
 
 const OUTSIDE: (&str, &str) = ("Floquet multipliers outside the unit circle", "1");
@@ -55,6 +55,8 @@ fn points(set: Dataset, run: &Run) -> Dataset {
     let number = wholes(lengths().flat_map(|length| 0..length));
     let parameter = all().map(|point| point.parameter).collect();
     let stable: Vec<bool> = all().map(|point| point.stable).collect();
+    let is_neutral = |point: &Point| point.orbit.stability() == Stability::Neutral;
+    let neutral: Vec<bool> = all().map(is_neutral).collect();
     let points = lengths().sum();
     let set = set
         .coordinate(numbered("point", 0, points, "Points of all branches"))
@@ -73,6 +75,10 @@ fn points(set: Dataset, run: &Run) -> Dataset {
         ))
         .variable(whole("period", |point| point.orbit.period(), PERIOD))
         .variable(Variable::new("stable", &over, stable).long_name("Whether the orbit is stable"))
+        .variable(
+            Variable::new("neutral", &over, neutral)
+                .long_name("Whether rounding alone says if the orbit is stable"),
+        )
         .variable(whole("outside", |point| point.outside, OUTSIDE))
         .variable(
             Variable::new(

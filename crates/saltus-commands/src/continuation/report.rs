@@ -47,7 +47,8 @@ pub(super) struct Branch<'a> {
 #[derive(Serialize)]
 pub(super) struct Point<'a> {
     pub(super) value: f64,
-    pub(super) stable: bool,
+    /// Null if neutral.
+    pub(super) stable: Option<bool>,
     pub(super) outside: usize,
     pub(super) multiplier: [f64; 2],
     pub(super) sequence: &'a str,
@@ -159,7 +160,7 @@ impl<'a> Point<'a> {
     fn new(point: &saltus::orbits::Point, seen: &'a Seen) -> Self {
         Self {
             value: point.parameter,
-            stable: point.stable,
+            stable: point.orbit.stability().is_stable(),
             outside: point.outside,
             multiplier: [seen.multiplier.re, seen.multiplier.im],
             sequence: &seen.sequence,

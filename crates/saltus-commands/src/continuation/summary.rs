@@ -48,7 +48,11 @@ fn branch_line(branch: &Branch) -> String {
         values().fold(f64::INFINITY, f64::min),
         values().fold(f64::NEG_INFINITY, f64::max),
     );
-    let stable = branch.points.iter().filter(|point| point.stable).count();
+    let stable = branch
+        .points
+        .iter()
+        .filter(|point| point.stable == Some(true))
+        .count();
     let from = branch
         .origin
         .map_or(String::new(), |at| format!(" from {at}"));

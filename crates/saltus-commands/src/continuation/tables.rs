@@ -131,7 +131,10 @@ fn points(
                         whole(index),
                         point.parameter.into(),
                         whole(point.orbit.period()),
-                        point.stable.into(),
+                        match point.orbit.stability().is_stable() {
+                            Some(stable) => stable.into(),
+                            None => "neutral".into(),
+                        },
                         whole(point.outside),
                         seen.multiplier.re.into(),
                         seen.multiplier.im.into(),

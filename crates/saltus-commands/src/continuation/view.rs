@@ -30,7 +30,11 @@ impl Seen {
             let point = point(&model, place);
             model.section(&point.modes, &point.x)
         });
-        let nothing = Multiplier { re: 0.0, im: 0.0 };
+        let nothing = Multiplier {
+            re: 0.0,
+            im: 0.0,
+            error: 0.0,
+        };
         Ok(Self {
             section: section.collect(),
             sequence: sequence(&model, orbit),

@@ -24,6 +24,7 @@ pub(super) fn dataset(run: &Run, report: &Report, convergence: &[Running]) -> Da
     )
     .attribute("status", report.status_text.clone())
     .attribute("nature", report.nature.name)
+    .attribute("exponents_from", report.from)
     .attribute("nature_text", report.nature.text.clone())
     .coordinate(numbered(
         each[0],
@@ -42,6 +43,24 @@ pub(super) fn dataset(run: &Run, report: &Report, convergence: &[Running]) -> Da
         &each,
         rates(|e| e.standard_error),
         error,
+    ))
+    .variable(variable(
+        "exponent_low",
+        &each,
+        rates(|e| e.interval[0]),
+        (
+            "Lower end of the interval that holds it with a probability of 0.95",
+            "1",
+        ),
+    ))
+    .variable(variable(
+        "exponent_high",
+        &each,
+        rates(|e| e.interval[1]),
+        (
+            "Upper end of the interval that holds it with a probability of 0.95",
+            "1",
+        ),
     ))
     .variable(variable(
         "running_exponent",

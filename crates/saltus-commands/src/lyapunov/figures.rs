@@ -39,7 +39,7 @@ pub(super) fn convergence(run: &Run, convergence: &[Running]) -> Figure {
         .logarithmic(),
         Axis::new("Mean growth per forcing period (-)"),
     );
-    let last = run.growth.spectrum.estimate();
+    let last = run.growth.exponents();
     let curves = last
         .iter()
         .take(SHOWN)

@@ -71,7 +71,13 @@ fn measure(
     let until = how.transient + how.periods;
     let work = || {
         let growth = lyapunov(&model, &start, &how, control)?;
-        let recurrence = recurrence(&model, &start, until, control)?;
+        let recurrence = match &growth.cycle {
+            Some(orbit) => Recurrence::Recurs {
+                period: orbit.period() as u32,
+                rest: 0.0,
+            },
+            None => recurrence(&model, &start, until, control)?,
+        };
         Ok::<_, StudyError>((growth, recurrence))
     };
     let total = how.work() + until + SEEN;

@@ -22,6 +22,7 @@ pub(super) struct Report<'a> {
     pub(super) replicas: usize,
     pub(super) periods_measured: usize,
     pub(super) nature: Motion,
+    pub(super) from: &'static str,
     pub(super) exponents: Vec<Rate>,
     pub(super) sum: Rate,
     pub(super) divergence: Divergence,
@@ -44,6 +45,8 @@ pub(super) struct Motion {
 pub(super) struct Rate {
     pub(super) per_period: f64,
     pub(super) standard_error: f64,
+    /// Holds the true value with a probability of 0.95.
+    pub(super) interval: [f64; 2],
     pub(super) per_second: f64,
     pub(super) per_second_error: f64,
 }
@@ -84,8 +87,12 @@ impl<'a> Report<'a> {
             replicas: run.how.replicas,
             periods_measured: spectrum.iterates(),
             nature: Motion::new(run),
-            exponents: spectrum.estimate().into_iter().map(rate).collect(),
-            sum: rate(spectrum.sum()),
+            from: match run.growth.cycle {
+                Some(_) => "orbit",
+                None => "record",
+            },
+            exponents: run.growth.exponents().into_iter().map(rate).collect(),
+            sum: rate(run.growth.sum()),
             divergence: Divergence::new(run),
             kaplan_yorke: dimension,
             study: &run.study,
@@ -113,6 +120,7 @@ impl Rate {
         Self {
             per_period: exponent.per_iterate,
             standard_error: exponent.standard_error,
+            interval: exponent.interval(),
             per_second: exponent.per_iterate / period,
             per_second_error: exponent.standard_error / period,
         }
@@ -122,7 +130,7 @@ impl Rate {
 impl Divergence {
     fn new(run: &Run) -> Self {
         let (asked, states) = (run.how.exponents, run.model.free_states());
-        let (sum, mean) = (run.growth.spectrum.sum().per_iterate, run.growth.divergence);
+        let (sum, mean) = (run.growth.sum().per_iterate, run.growth.divergence());
         let relaxing = run.study.contact_law() == ContactLaw::RelaxingLeg;
         let apart = if asked < states {
             Some(format!("only {asked} of {states} exponents are summed"))

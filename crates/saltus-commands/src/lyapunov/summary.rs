@@ -32,6 +32,14 @@ pub(super) fn text(run: &Run, report: &Report) -> String {
         format!("{:.4} Hz, period {:.6} s", report.base_hz, report.period_s),
     );
     line("record", record(report));
+    line(
+        "exponents",
+        match report.from {
+            "orbit" => "of the multipliers of the orbit that the motion has come to".to_owned(),
+            _ => "means of the record, with one standard error; nearly twice that holds 95 %"
+                .to_owned(),
+        },
+    );
     line("dimension", dimension(report));
     line("sum", sum(report));
     text.push_str(&spectrum(report));

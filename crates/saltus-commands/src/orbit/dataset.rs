@@ -20,7 +20,7 @@ pub(super) fn dataset(run: &Run, report: &Report) -> Dataset {
         "A periodic orbit of people on a vibrating plate",
         &run.study,
     )
-    .attribute("stable", if report.stable { "yes" } else { "no" })
+    .attribute("stability", report.stability)
     .attribute("sequence", report.sequence.clone())
     .coordinate(numbered("point", 0, points.len(), place))
     .coordinate(numbered("multiplier", 1, multipliers.len(), largest))

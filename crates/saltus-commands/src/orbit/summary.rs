@@ -73,11 +73,19 @@ fn periods(count: usize) -> String {
 }
 
 fn stability(report: &Report) -> String {
-    match report.outside {
-        _ if report.stable => "stable".to_owned(),
-        0 => "on the edge: a multiplier on the unit circle".to_owned(),
-        1 => "unstable: 1 multiplier outside the unit circle".to_owned(),
-        n => format!("unstable: {n} multipliers outside the unit circle"),
+    let verdict = match (report.stability, report.outside) {
+        ("unstable", 1) => "unstable: 1 multiplier outside the unit circle".to_owned(),
+        ("unstable", n) => format!("unstable: {n} multipliers outside the unit circle"),
+        ("neutral", _) => {
+            "neutral: a multiplier is on the unit circle to rounding, and none outside".to_owned()
+        }
+        (verdict, _) => verdict.to_owned(),
+    };
+    if report.in_family {
+        verdict
+            + "; a multiplier is 1: other orbits lie beside this one (a quantity is conserved, or a fold is here)"
+    } else {
+        verdict
     }
 }
 

@@ -32,9 +32,10 @@ pub(super) fn write(folder: &mut dyn Store, run: &Run, report: &Report) -> Resul
     });
     folder.table("section.csv", &note(&motion::COLUMNS), &header, rows)?;
 
-    let header = ["re", "im", "modulus"].map(str::to_owned);
-    let rows = report.multipliers.iter();
-    let rows = rows.map(|&[re, im]| [re, im, re.hypot(im)].map(Value::from).to_vec());
+    let header = ["re", "im", "modulus", "error"].map(str::to_owned);
+    let rows = report.multipliers.iter().zip(&report.multiplier_errors);
+    let rows =
+        rows.map(|(&[re, im], &error)| [re, im, re.hypot(im), error].map(Value::from).to_vec());
     folder.table("multipliers.csv", &note(&[]), &header, rows)?;
 
     motion::write_switches(folder, &report.switches, &note(&[]))

@@ -1,9 +1,16 @@
 //! The mean of a correlated series, with an error that is honest about the correlation.
 
-use super::student::student;
+use super::student::{quantile, student};
 
-/// Batches at least: fewer say too little about their own spread.
+/// Batches of a series, or a few more of a short one: few and long. Ten to thirty are enough for an interval [Schmeiser 1982], and the longer
+/// they are, the slower may what they average be.
 const BATCHES: usize = 20;
+
+/// Parts of each batch whose own spread tells how fast the error still grows with the length of a batch.
+const PARTS: usize = 3;
+
+/// Correlation that is made up for at most: beyond it the record is too short for any error.
+const LARGEST: f64 = 0.8;
 
 /// A Lyapunov exponent, or a sum of some, from a finite record.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,9 +18,11 @@ pub struct Exponent {
     /// Mean growth (1 / iterate, natural logarithm); -inf if a direction was ever lost (superstable), 0
     /// before the first iterate.
     pub per_iterate: f64,
-    /// Standard error of that (1 / iterate): infinite if there are fewer than 20 iterates, 0 for -inf.
+    /// Standard error of that (1 / iterate), what rounding does included: infinite if there are fewer than 20
+    /// iterates, 0 for -inf.
     pub standard_error: f64,
-    /// How many batches it is from; 0 where there is no error.
+    /// How many batches it is from, which has one degree of freedom less; 0 where there is no error, or where it
+    /// is none of chance (from an orbit).
     pub batches: usize,
     /// Iterates in each.
     pub batch_length: usize,
@@ -23,27 +32,42 @@ impl Exponent {
     /// How probable it is that the true value is positive, by Student's t with one degree of freedom less
     /// than there are batches. `noise` is the error of the growth itself (1 / iterate), which no record sees.
     pub fn positive(&self, noise: f64) -> f64 {
-        if self.batches < 2 {
-            return if self.per_iterate == f64::NEG_INFINITY {
-                0.0
-            } else {
-                0.5
-            };
+        if self.per_iterate == f64::NEG_INFINITY {
+            return 0.0;
         }
         let error = self.standard_error.hypot(noise);
         let ratio = self.per_iterate / error;
-        student(if ratio.is_nan() { 0.0 } else { ratio }, self.batches - 1)
+        student(if ratio.is_nan() { 0.0 } else { ratio }, self.freedom())
+    }
+
+    /// The interval that holds the true value with a probability of 0.95, by Student's t.
+    ///
+    /// It does as long as the record is longer than some tens of times in which the motion forgets where it was;
+    /// what changes more slowly than that no record shows.
+    pub fn interval(&self) -> [f64; 2] {
+        let half = quantile(0.975, self.freedom()) * self.standard_error;
+        [self.per_iterate - half, self.per_iterate + half]
+    }
+
+    /// Degrees of freedom of its error; as many as matter where chance plays no part.
+    fn freedom(&self) -> usize {
+        match self.batches {
+            0 | 1 => 1000,
+            batches => batches - 1,
+        }
     }
 }
 
-/// The mean of independent series with its standard error.
+/// The mean of series that belong together, such as pieces of one long trajectory in their order, with its standard
+/// error. `noise` is the error of the values themselves.
 ///
-/// The series are cut into batches, each sqrt(length) long, and the spread of their means is the error
-/// [Flegal & Jones 2010, Annals of Statistics 38, 1034]. Batches double as long as neighbours are correlated by more
-/// than chance (one standard deviation, 1/sqrt(batches)) and 20 are left. Where correlation r stays, the error
-/// grows by sqrt((1 + r)/(1 - r)), which is right for a correlation that decays geometrically. Where growth now
-/// makes up for growth before, as on a torus or in the logistic map at r = 4, the error is too large.
-pub(super) fn mean(series: &[Vec<f64>]) -> Exponent {
+/// All are taken as one series, which is cut into 20 batches; the spread of their means is the error [Flegal & Jones
+/// 2010, Annals of Statistics 38, 1034]. What is left of correlations is made up for twice. The variance from
+/// batches of a third of the length is the smaller one by what a batch misses, so twice the variance from whole ones
+/// less that from thirds misses it no longer [Vats & Flegal 2022, Biometrika 109, 735]. And where neighbouring batches
+/// are correlated by r, the error grows by sqrt((1 + r)/(1 - r)), right for a correlation that decays geometrically.
+/// Where growth now makes up for growth before, as on a torus, the error is too large.
+pub(super) fn mean(series: &[Vec<f64>], noise: f64) -> Exponent {
     let count: usize = series.iter().map(Vec::len).sum();
     let sum: f64 = series.iter().map(|one| sum(one)).sum();
     let unknown = Exponent {
@@ -53,27 +77,26 @@ pub(super) fn mean(series: &[Vec<f64>]) -> Exponent {
         batch_length: 0,
     };
     if unknown.per_iterate == f64::NEG_INFINITY {
+        // lost to rounding it is unknown, else certain
+        let standard_error = if noise.is_finite() { 0.0 } else { noise };
         return Exponent {
-            standard_error: 0.0,
+            standard_error,
             ..unknown
         };
     }
-    if count_of(series, 1) < BATCHES {
+    if count < BATCHES {
         return unknown;
     }
-    let mut length = (count / series.len()).isqrt().max(1);
-    while count_of(series, length) < BATCHES {
-        length -= 1;
-    }
-    let mut spread = Spread::of(series, length);
-    while spread.is_correlated() && count_of(series, 2 * length) >= BATCHES {
-        length *= 2;
-        spread = Spread::of(series, length);
-    }
+    let parts = if count < PARTS * BATCHES { 1 } else { PARTS };
+    let length = count / (parts * BATCHES);
+    let means = means(series, length);
+    let (thirds, batches) = (Spread::of(&means, 1), Spread::of(&means, parts));
+    let variance = (2.0 * batches.variance - thirds.variance).max(batches.variance);
+    let chance = variance * batches.for_correlation();
     Exponent {
-        standard_error: spread.standard_error(),
-        batches: spread.batches,
-        batch_length: length,
+        standard_error: chance.sqrt().hypot(noise),
+        batches: batches.count,
+        batch_length: parts * length,
         ..unknown
     }
 }
@@ -84,49 +107,60 @@ fn sum(series: &[f64]) -> f64 {
     parts.sum()
 }
 
-fn count_of(series: &[Vec<f64>], length: usize) -> usize {
-    series.iter().map(|one| one.len() / length).sum()
+/// Means over `length` values each, across the seams of the series; what is left over is left out.
+fn means(series: &[Vec<f64>], length: usize) -> Vec<f64> {
+    let (mut means, mut sum, mut taken) = (Vec::new(), 0.0, 0);
+    for value in series.iter().flatten() {
+        sum += value;
+        taken += 1;
+        if taken == length {
+            means.push(sum / length as f64);
+            (sum, taken) = (0.0, 0);
+        }
+    }
+    means
 }
 
 /// How the means of batches differ.
 struct Spread {
-    batches: usize,
+    /// Of the mean of all of them, if they were independent.
     variance: f64,
-    /// Of neighbours in one series.
+    /// Of neighbours, relative to their variance.
     correlation: f64,
+    count: usize,
 }
 
 impl Spread {
-    fn of(series: &[Vec<f64>], length: usize) -> Self {
-        let mean_of = |batch: &[f64]| batch.iter().sum::<f64>() / length as f64;
-        let means = |one: &Vec<f64>| one.chunks_exact(length).map(mean_of).collect();
-        let mut means: Vec<Vec<f64>> = series.iter().map(means).collect();
-        let batches = count_of(series, length);
-        let centre = means.iter().flatten().sum::<f64>() / batches as f64;
-        means.iter_mut().flatten().for_each(|mean| *mean -= centre);
-        let squares: f64 = means.iter().flatten().map(|mean| mean * mean).sum();
-        let products = means
-            .iter()
-            .flat_map(|one| one.windows(2))
-            .map(|two| two[0] * two[1]);
-        let correlation = products.sum::<f64>() / squares;
+    /// Of batches of `parts` means each.
+    fn of(means: &[f64], parts: usize) -> Self {
+        let whole = means.chunks_exact(parts);
+        let mut means: Vec<f64> = whole
+            .map(|one| one.iter().sum::<f64>() / parts as f64)
+            .collect();
+        let count = means.len();
+        let centre = means.iter().sum::<f64>() / count as f64;
+        means.iter_mut().for_each(|mean| *mean -= centre);
+        let squares: f64 = means.iter().map(|mean| mean * mean).sum();
+        let products: f64 = means.windows(2).map(|two| two[0] * two[1]).sum();
         Self {
-            batches,
-            variance: squares / (batches - 1) as f64,
-            correlation: if squares > 0.0 { correlation } else { 0.0 },
+            variance: squares / (count * (count - 1)) as f64,
+            correlation: if squares > 0.0 {
+                products / squares
+            } else {
+                0.0
+            },
+            count,
         }
     }
 
-    fn is_correlated(&self) -> bool {
-        self.correlation > (self.batches as f64).sqrt().recip()
-    }
-
-    fn standard_error(&self) -> f64 {
-        let r = if self.is_correlated() {
-            self.correlation
+    /// By how much the correlation of neighbours makes the variance larger, if it is more than half of what chance
+    /// makes of none (a standard deviation of 1/sqrt(batches)).
+    fn for_correlation(&self) -> f64 {
+        let r = self.correlation.min(LARGEST);
+        if r > 0.5 / (self.count as f64).sqrt() {
+            (1.0 + r) / (1.0 - r)
         } else {
-            0.0
-        };
-        (self.variance / self.batches as f64 * (1.0 + r) / (1.0 - r)).sqrt()
+            1.0
+        }
     }
 }

@@ -29,6 +29,17 @@ pub(super) fn orthonormalise(columns: &mut [f64], n: usize, logs: &mut Vec<f64>)
     }
 }
 
+/// Logarithm of the length of the longest column; -inf if all are zero.
+pub(super) fn longest(columns: &[f64], n: usize) -> f64 {
+    let scale = columns.iter().fold(0.0, |most, x| f64::max(most, x.abs()));
+    if scale == 0.0 {
+        return f64::NEG_INFINITY;
+    }
+    let square = |column: &[f64]| column.iter().map(|x| (x / scale).powi(2)).sum::<f64>();
+    let most = columns.chunks_exact(n).map(square).fold(0.0, f64::max);
+    scale.ln() + 0.5 * most.ln()
+}
+
 /// Makes `column` orthogonal to those before and of length one; the logarithm of what was left of it, if any.
 fn left(column: &mut [f64], before: &[f64]) -> Option<f64> {
     let n = column.len();

@@ -3,10 +3,26 @@
 use super::ExponentError;
 use super::batches::{self, Exponent};
 use super::birkhoff::{self, Weighted};
-use super::orthonormal::orthonormalise;
+use super::orthonormal::{longest, orthonormalise};
+use crate::Orbit;
 
 /// Points of [`Spectrum::convergence`] at most.
 const POINTS: usize = 150;
+
+/// Columns that part by more than this in one go (ln of the ratio of what is left of them) leave too little of the
+/// shorter ones, and what is aimed at when a period is cut into parts: rounding then costs some five units.
+const APART: f64 = 8.0;
+const AIM: f64 = 4.0;
+
+/// A multiplier that tells an exponent to this tells it better than a record does, whatever that claims: a record that
+/// ends within a cycle does not see it.
+const RESOLVED: f64 = 1e-6;
+
+/// Into how many parts a period is cut at most: more than any step needs.
+const MOST_PARTS: u32 = 1 << 16;
+
+/// A direction that is lost in such a part of a period with a switch in it, is lost by the switch.
+const SWITCH: u32 = 8;
 
 /// Collects how tangent columns stretch along a trajectory, iterate by iterate.
 ///
@@ -41,6 +57,18 @@ pub struct Spectrum {
     /// Of each trajectory: ln of the factors of the first iterate, column by column, then of the next. The
     /// last trajectory is the one that is fed.
     runs: Vec<Vec<f64>>,
+    /// The same of the iterate under way.
+    open: Vec<f64>,
+    /// Error of the columns, relative to the longest one, at each handing over.
+    noise: f64,
+    /// Into how many parts a period is cut; 0 for a map, whose derivative may have no inverse.
+    parts: u32,
+    /// How far columns have parted in one go.
+    apart: f64,
+    /// What `noise` makes of the logarithms: their errors, added up, column by column; in the record and in the
+    /// iterate under way.
+    errors: Vec<f64>,
+    open_errors: Vec<f64>,
 }
 
 /// A Kaplan-Yorke dimension.
@@ -74,6 +102,31 @@ impl Spectrum {
             dimension,
             columns,
             runs: vec![Vec::new()],
+            open: vec![0.0; columns],
+            noise: f64::EPSILON,
+            parts: 0,
+            apart: 0.0,
+            errors: vec![0.0; columns],
+            open_errors: vec![0.0; columns],
+        })
+    }
+
+    /// The same for a flow whose columns are handed over `parts` times in each period, each time with an error of
+    /// `noise`, relative to the longest. No direction of a flow is lost between switches, so one that seems to be is
+    /// no -inf, but unknown.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of_flow(
+        dimension: usize,
+        columns: usize,
+        parts: u32,
+        noise: f64,
+    ) -> Result<Self, ExponentError> {
+        Ok(Self {
+            noise,
+            parts: parts.max(1),
+            ..Self::new(dimension, columns)?
         })
     }
 
@@ -95,6 +148,17 @@ impl Spectrum {
     /// # Errors
     /// [`ExponentError::Length`] and [`ExponentError::NotFinite`]; nothing is recorded or changed then.
     pub fn feed(&mut self, columns: &mut [f64]) -> Result<(), ExponentError> {
+        self.part(columns, false)?;
+        self.close(true);
+        Ok(())
+    }
+
+    /// As [`Self::feed`] within an iterate, as after a part of a period; `switched` says whether there was a switch in
+    /// this part. [`Self::close`] ends the iterate.
+    ///
+    /// # Errors
+    /// As [`Self::feed`].
+    pub fn part(&mut self, columns: &mut [f64], switched: bool) -> Result<(), ExponentError> {
         let (got, want) = (columns.len(), self.dimension * self.columns);
         if got != want {
             return Err(ExponentError::Length { got, want });
@@ -102,18 +166,60 @@ impl Spectrum {
         if !columns.iter().all(|x| x.is_finite()) {
             return Err(ExponentError::NotFinite);
         }
-        if let Some(run) = self.runs.last_mut() {
-            orthonormalise(columns, self.dimension, run);
+        let longest = longest(columns, self.dimension).max(0.0);
+        let mut logs = Vec::with_capacity(self.columns);
+        orthonormalise(columns, self.dimension, &mut logs);
+        // by a switch, or by a map
+        let may_be_lost = self.parts == 0 || switched && self.parts >= SWITCH;
+        for (j, log) in logs.into_iter().enumerate() {
+            self.open[j] += log;
+            let apart = longest - log;
+            self.open_errors[j] += match log {
+                f64::NEG_INFINITY if may_be_lost => 0.0,
+                f64::NEG_INFINITY => f64::INFINITY,
+                // no logarithm is off by more than itself
+                _ => (self.noise * apart.exp()).min(apart.max(1.0)),
+            };
+            if !may_be_lost {
+                self.apart = self.apart.max(apart);
+            }
         }
         Ok(())
+    }
+
+    /// Ends an iterate, and records it or not.
+    pub fn close(&mut self, record: bool) {
+        if let Some(run) = self.runs.last_mut().filter(|_| record) {
+            run.append(&mut self.open);
+            for (sum, error) in self.errors.iter_mut().zip(&self.open_errors) {
+                *sum += error;
+            }
+        }
+        self.open = vec![0.0; self.columns];
+        self.open_errors = vec![0.0; self.columns];
+    }
+
+    /// Into how many parts each period must be cut, if columns have parted by more than rounding allows. What was
+    /// recorded is worth nothing then: begin anew. `outgrown` says that columns have left the range of numbers.
+    pub fn needs_parts(&self, outgrown: bool) -> Option<u32> {
+        let apart = if outgrown { f64::INFINITY } else { self.apart };
+        if apart <= APART || self.parts == 0 || self.parts >= MOST_PARTS {
+            return None;
+        }
+        let times = (apart / AIM).ceil().min(f64::from(SWITCH)) as u32;
+        let parts = self.parts.saturating_mul(times.max(2));
+        Some(parts.next_power_of_two().min(MOST_PARTS))
     }
 
     /// Forgets what was fed so far: a transient, in which the columns find their directions.
     pub fn forget(&mut self) {
         self.runs = vec![Vec::new()];
+        self.errors = vec![0.0; self.columns];
+        self.close(false);
     }
 
-    /// Adds the record of another trajectory on the same attractor; what is fed later still belongs to this one.
+    /// Puts the record of another trajectory on the same attractor before the one that is fed, and behind those put
+    /// there earlier. Pieces of one long trajectory belong in their order: it tells what changes slowly.
     ///
     /// # Errors
     /// [`ExponentError::Unlike`] if dimension or columns differ.
@@ -123,13 +229,42 @@ impl Spectrum {
             let (own, other) = (shape(self), shape(other));
             return Err(ExponentError::Unlike { own, other });
         }
-        self.runs.splice(0..0, other.runs.iter().cloned());
+        let last = self.runs.len() - 1;
+        self.runs.splice(last..last, other.runs.iter().cloned());
+        for (sum, error) in self.errors.iter_mut().zip(&other.errors) {
+            *sum += error;
+        }
         Ok(())
     }
 
     /// Iterates in the record, of all trajectories together.
     pub fn iterates(&self) -> usize {
         self.runs.iter().map(Vec::len).sum::<usize>() / self.columns
+    }
+
+    /// The exponents of a motion that has come to a cycle: those of its multipliers, where these tell them better than
+    /// the record does. A record is off by what is left of the transient and by the part of a period that it begins or
+    /// ends with, and turns a complex pair into two that wander about their mean.
+    pub fn on_cycle(&self, orbit: &Orbit) -> Vec<Exponent> {
+        let period = orbit.period() as f64;
+        let of_orbit = |multiplier: &crate::Multiplier| {
+            let modulus = multiplier.modulus();
+            (modulus > 0.0).then(|| Exponent {
+                per_iterate: modulus.ln() / period,
+                standard_error: multiplier.error / modulus / period,
+                batches: 0,
+                batch_length: 0,
+            })
+        };
+        let better = |(own, multiplier)| {
+            let own: Exponent = own;
+            of_orbit(multiplier)
+                .filter(|found| found.standard_error <= own.standard_error.max(RESOLVED))
+                .filter(|_| own.per_iterate.is_finite())
+                .unwrap_or(own)
+        };
+        let own = self.estimate().into_iter();
+        own.zip(&orbit.multipliers).map(better).collect()
     }
 
     /// The exponents, the largest first but for their errors.
@@ -139,7 +274,14 @@ impl Spectrum {
 
     /// The sum of the exponents, with the error of the sum: for all n of them the mean of ln |det|.
     pub fn sum(&self) -> Exponent {
-        batches::mean(&self.series(usize::MAX, |row| row.iter().sum()))
+        self.sum_of(self.columns)
+    }
+
+    /// The mean sum of the growths of the last iterates, as once around a cycle.
+    pub fn sum_of_last(&self, iterates: usize) -> f64 {
+        let last = self.runs.last().map_or(&[][..], Vec::as_slice);
+        let last = &last[last.len().saturating_sub(iterates * self.columns)..];
+        last.iter().sum::<f64>() / iterates.max(1) as f64
     }
 
     /// The weighted Birkhoff averages of the growth, column by column.
@@ -156,11 +298,9 @@ impl Spectrum {
     /// `None` if more exponents would be needed than the record has, or the record is too short for errors.
     pub fn kaplan_yorke(&self) -> Option<Dimension> {
         let exponents = self.estimate();
-        let sum_of =
-            |j: usize| batches::mean(&self.series(usize::MAX, |row| row[..j].iter().sum()));
         let mut within = 0.0;
         for (j, next) in exponents.iter().enumerate() {
-            let sum = sum_of(j + 1);
+            let sum = self.sum_of(j + 1);
             if sum.standard_error == f64::INFINITY {
                 return None;
             }
@@ -186,7 +326,8 @@ impl Spectrum {
             standard_error: if certain {
                 0.0
             } else {
-                batches::mean(&self.series(usize::MAX, linear)).standard_error
+                let noise = self.noise(j + 1) / next.abs();
+                batches::mean(&self.series(usize::MAX, linear), noise).standard_error
             },
         }
     }
@@ -206,7 +347,7 @@ impl Spectrum {
 
     /// The exponent of the first column.
     pub(crate) fn largest(&self) -> Exponent {
-        batches::mean(&self.series(usize::MAX, |row| row[0]))
+        self.exponent(0, usize::MAX)
     }
 
     /// The weighted average of the growth of the first column.
@@ -221,8 +362,26 @@ impl Spectrum {
     }
 
     fn estimate_of_first(&self, iterates: usize) -> Vec<Exponent> {
-        let exponent = |j: usize| batches::mean(&self.series(iterates, |row| row[j]));
-        (0..self.columns).map(exponent).collect()
+        (0..self.columns)
+            .map(|j| self.exponent(j, iterates))
+            .collect()
+    }
+
+    /// That of one column, from the first iterates.
+    fn exponent(&self, j: usize, iterates: usize) -> Exponent {
+        let noise = self.errors[j] / self.iterates().max(1) as f64;
+        batches::mean(&self.series(iterates, |row| row[j]), noise)
+    }
+
+    /// The sum of the first exponents.
+    fn sum_of(&self, count: usize) -> Exponent {
+        let sum = self.series(usize::MAX, |row| row[..count].iter().sum());
+        batches::mean(&sum, self.noise(count))
+    }
+
+    /// What rounding does to the sum of the first exponents.
+    fn noise(&self, count: usize) -> f64 {
+        self.errors[..count].iter().sum::<f64>() / self.iterates().max(1) as f64
     }
 
     /// One number for each of the first iterates of each trajectory.

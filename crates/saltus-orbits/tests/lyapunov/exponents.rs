@@ -1,7 +1,7 @@
 //! Values.
 
-use crate::maps::{CIRCLE, DELAYED, DOUBLING, HENON, LOGISTIC, TENT, Toy, place};
-use saltus_orbits::{Exponent, ExponentError, Spectrum, spectrum_of};
+use crate::maps::{CIRCLE, DELAYED, DOUBLING, HENON, LOGISTIC, SPIRAL, TENT, Toy, place};
+use saltus_orbits::{Exponent, ExponentError, Spectrum, settled, spectrum_of};
 
 pub(crate) const HENON_CLASSIC: [f64; 2] = [1.4, 0.3];
 
@@ -29,7 +29,7 @@ fn henon_and_the_delayed_logistic_map_have_the_published_exponents() {
         let found = record(map, parameters, &[0.1, 0.1], 200_000).estimate();
         for (exponent, known) in found.iter().zip(published) {
             assert_is(exponent, known, 1e-5);
-            assert!(exponent.standard_error < 5e-3, "{exponent:?}");
+            assert!(exponent.standard_error < 7e-3, "{exponent:?}");
         }
     }
 }
@@ -40,7 +40,8 @@ fn the_sum_is_the_mean_of_the_logarithm_of_the_determinant() {
     let sum = spectrum.sum();
     // det = -b everywhere, so nothing but rounding is left of the errors of the single exponents
     assert!((sum.per_iterate - 0.3_f64.ln()).abs() < 1e-13, "{sum:?}");
-    assert!(sum.standard_error < 1e-14, "{sum:?}");
+    // each logarithm is known to the rounding of its columns, of which one is some ten times the other
+    assert!(sum.standard_error < 1e-13, "{sum:?}");
     assert!(spectrum.estimate()[0].standard_error > 1e-4);
 }
 
@@ -97,6 +98,44 @@ fn maps_of_the_line_have_the_exponents_of_their_formulas() {
         1.9_f64.ln(),
         1e-13,
     );
+}
+
+/// A record of 501 iterates ends in the middle of a cycle, and a complex pair makes two columns wander: multipliers
+/// do neither.
+#[test]
+fn on_a_cycle_exponents_are_those_of_its_multipliers() {
+    let r = 3.2_f64;
+    let of = |map: &Toy, parameters: &[f64], start: &[f64]| {
+        let spectrum = spectrum_of(map, parameters, place(start), 200, 501, start.len()).unwrap();
+        let mut x = start.to_vec();
+        (0..701).for_each(|_| x = map.next(parameters, &x));
+        let orbit = settled(map, parameters, &place(&x)).unwrap();
+        (spectrum.estimate(), spectrum.on_cycle(&orbit))
+    };
+    // 4 + 2 r - r^2 is the multiplier of the 2-cycle
+    let exact = (4.0 + 2.0 * r - r * r).abs().ln() / 2.0;
+    let (record, cycle) = of(&LOGISTIC, &[r], &[0.3]);
+    assert!((record[0].per_iterate - exact).abs() > 1e-5, "{record:?}");
+    assert!(
+        (cycle[0].per_iterate - exact).abs() < cycle[0].standard_error,
+        "{cycle:?}"
+    );
+    assert!(cycle[0].standard_error < 1e-9, "{cycle:?}");
+    // both of the pair shrink by 0.9
+    let (record, cycle) = of(&SPIRAL, &[], &[0.1, 0.1]);
+    for (record, cycle) in record.iter().zip(cycle) {
+        assert!(
+            (record.per_iterate - 0.9_f64.ln()).abs() > 1e-6,
+            "{record:?}"
+        );
+        assert!(
+            (cycle.per_iterate - 0.9_f64.ln()).abs() < cycle.standard_error,
+            "{cycle:?}"
+        );
+        assert!(cycle.standard_error < 1e-9, "{cycle:?}");
+    }
+    // chaos is on no cycle
+    assert_eq!(settled(&HENON, &HENON_CLASSIC, &place(&[0.1, 0.1])), None);
 }
 
 #[test]

@@ -3,5 +3,6 @@
 
 mod errors;
 mod exponents;
+mod flows;
 mod maps;
 mod natures;

@@ -4,6 +4,7 @@
 mod ball;
 mod bilinear;
 mod duffing;
+mod family;
 mod impact;
 mod independent;
 mod lorenz;

@@ -1,12 +1,12 @@
 //! Lyapunov exponents of many trajectories.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::Ordering;
 
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
-use saltus_hybrid::{End, Leg, Sample, System, Task, integrate_all};
-use saltus_orbits::Spectrum;
+use saltus_hybrid::{Method, Options, Sample, Status};
+use saltus_orbits::{Ascent, ClimbError, Climbed, Place, Start, Stroboscopic, climb, settled};
 
 use super::blueprint::Blueprint;
 use super::input::Settings;
@@ -14,12 +14,22 @@ use super::program::Members;
 use crate::error::{of_computation, of_definition};
 use crate::running::{Progress, run as run_beside};
 
+/// How orbits are integrated: what `find_orbit` takes if not told otherwise.
+const ORBITS: Method = Method::Taylor {
+    tolerance: 1e-14,
+    order: 22,
+};
+
 /// Exponents per unit of time, as flat arrays in the order of the members.
 #[pyclass(frozen, get_all, module = "saltus._native")]
 pub(crate) struct Exponents {
     /// (members, count), the largest first but for their errors.
     exponents: Py<PyArray1<f64>>,
     standard_errors: Py<PyArray1<f64>>,
+    /// (members, count, 2).
+    intervals: Py<PyArray1<f64>>,
+    /// Whether each is on a cycle.
+    on_cycle: Vec<bool>,
     /// Kaplan-Yorke dimension of each member and its standard error; NaN where it is not known.
     dimension: Py<PyArray1<f64>>,
     dimension_error: Py<PyArray1<f64>>,
@@ -40,98 +50,83 @@ pub(crate) fn run(
     let blueprint = Arc::clone(blueprint);
     let options = settings.options();
     let ended = run_beside(py, progress, move |stop, done| {
-        let wide = |index: usize| {
+        let start = |index: usize| {
             let system = blueprint
                 .system(members.parameters.row(index))
                 .map_err(of_definition)?;
-            system.with_tangents(count).map_err(of_definition)
-        };
-        let mut tasks: Vec<Climb<'_>> = Vec::with_capacity(members.count);
-        for index in 0..members.count {
-            let mut system = wide(index)?;
-            if let Some(first) = tasks.first() {
-                system = system.sharing(&first.system);
-            }
-            tasks.push(Climb {
-                spectrum: Spectrum::new(blueprint.states(), count).map_err(of_computation)?,
-                start: Some((members.modes.row(index), members.starts.row(index))),
+            let (modes, x) = (members.modes.row(index), members.starts.row(index));
+            Ok(Start {
+                point: system.point(modes, x),
                 system,
-                length,
-                end: None,
-                done,
-            });
-        }
-        integrate_all(&options, tasks, settings.threads, stop)
-            .map(|ended| {
-                let parts = |climb: Climb<'_>| (climb.system.period(), climb.spectrum, climb.end);
-                ended.into_iter().map(parts).collect::<Vec<_>>()
+                watch: |_: &Sample<'_>| {
+                    done.fetch_add(1, Ordering::Relaxed);
+                },
             })
-            .map_err(of_computation)
+        };
+        let starts = (0..members.count)
+            .map(start)
+            .collect::<PyResult<Vec<_>>>()?;
+        let periods: Vec<f64> = starts.iter().map(|start| start.system.period()).collect();
+        let how = Ascent {
+            columns: count,
+            transient: length.0,
+            periods: length.1,
+        };
+        let climbed = climb(starts, &how, &options, settings.threads, stop);
+        let climbed = climbed.map_err(|error| match error {
+            ClimbError::Build(error) => of_definition(error),
+            other => of_computation(other),
+        })?;
+        let system_at = |p: &[f64]| blueprint.system(p).map_err(|error| error.to_string());
+        let states = blueprint.states();
+        let exact = Options {
+            method: ORBITS,
+            ..options
+        };
+        let map = Stroboscopic::new(system_at, states, exact, settings.threads, stop);
+        let told = |(index, climbed): (usize, Climbed)| {
+            let decays = climbed.spectrum.estimate()[0].per_iterate < 0.0;
+            let here = Place {
+                modes: climbed.end.point.modes.clone(),
+                x: climbed.end.point.x[..states].to_vec(),
+            };
+            let asked = decays && climbed.end.status == Status::Completed;
+            let parameters = members.parameters.row(index);
+            let cycle = asked.then(|| settled(&map, parameters, &here)).flatten();
+            (periods[index], climbed, cycle)
+        };
+        Ok(climbed
+            .into_iter()
+            .enumerate()
+            .map(told)
+            .collect::<Vec<_>>())
     });
-    let (mut exponents, mut errors) = (Vec::new(), Vec::new());
-    let (mut dimension, mut dimension_error, mut status) = (Vec::new(), Vec::new(), Vec::new());
-    for (period, spectrum, end) in ended? {
-        for exponent in spectrum.estimate() {
+    let (mut exponents, mut errors, mut intervals) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut dimension, mut dimension_error) = (Vec::new(), Vec::new());
+    let (mut status, mut on_cycle) = (Vec::new(), Vec::new());
+    for (period, Climbed { spectrum, end }, cycle) in ended? {
+        let found = match &cycle {
+            Some(orbit) => spectrum.on_cycle(orbit),
+            None => spectrum.estimate(),
+        };
+        for exponent in found {
             exponents.push(exponent.per_iterate / period);
             errors.push(exponent.standard_error / period);
+            intervals.extend(exponent.interval().map(|end| end / period));
         }
         let known = spectrum.kaplan_yorke();
         dimension.push(known.map_or(f64::NAN, |d| d.value));
         dimension_error.push(known.map_or(f64::NAN, |d| d.standard_error));
-        let end = end.ok_or_else(|| of_computation("a trajectory did not run"))?;
         status.push((end.status.name().to_owned(), end.status.to_string()));
+        on_cycle.push(cycle.is_some());
     }
     Ok(Exponents {
         exponents: exponents.into_pyarray(py).unbind(),
         standard_errors: errors.into_pyarray(py).unbind(),
+        intervals: intervals.into_pyarray(py).unbind(),
+        on_cycle,
         dimension: dimension.into_pyarray(py).unbind(),
         dimension_error: dimension_error.into_pyarray(py).unbind(),
         status,
     })
-}
-
-/// One trajectory with its record of growth.
-struct Climb<'a> {
-    system: System,
-    start: Option<(&'a [usize], &'a [f64])>,
-    /// Transient and periods.
-    length: (u64, u64),
-    spectrum: Spectrum,
-    end: Option<End>,
-    done: &'a AtomicU64,
-}
-
-impl Task for Climb<'_> {
-    fn begin(&mut self) -> Option<Leg> {
-        let (modes, x) = self.start.take()?;
-        let mut start = self.system.point(modes, x);
-        let columns = self.spectrum.start_columns();
-        self.system
-            .columns_mut(&mut start.x)
-            .copy_from_slice(&columns);
-        Some(Leg {
-            system: self.system.clone(),
-            start,
-            periods: self.length.0 + self.length.1,
-        })
-    }
-
-    fn sample(&mut self, sample: &Sample<'_>) -> bool {
-        // The columns of this period come after this call.
-        if sample.period <= self.length.0 + 1 {
-            self.spectrum.forget();
-        }
-        self.done.fetch_add(1, Ordering::Relaxed);
-        true
-    }
-
-    fn tangents(&mut self, columns: &mut [f64]) {
-        // Columns that are not finite end the run with a status of their own.
-        let _ = self.spectrum.feed(columns);
-    }
-
-    fn end(&mut self, end: End) -> Option<Leg> {
-        self.end = Some(end);
-        None
-    }
 }

@@ -30,6 +30,10 @@ pub(crate) struct Orbit {
     modes: Py<PyArray1<u8>>,
     /// Real and imaginary part of each multiplier, by falling modulus.
     multipliers: Vec<(f64, f64)>,
+    multiplier_errors: Vec<f64>,
+    /// "stable", "unstable" or "neutral".
+    stability: &'static str,
+    in_family: bool,
     /// (states, states).
     monodromy: Py<PyArray1<f64>>,
     /// Of each switch: place on the way, in periods since the start, unit, mode left, mode entered.
@@ -89,6 +93,9 @@ pub(crate) fn find(
         places: places.into_pyarray(py).unbind(),
         modes: modes.into_pyarray(py).unbind(),
         multipliers: orbit.multipliers.iter().map(|m| (m.re, m.im)).collect(),
+        multiplier_errors: orbit.multipliers.iter().map(|m| m.error).collect(),
+        stability: orbit.stability().name(),
+        in_family: orbit.in_family(),
         monodromy: monodromy.into_pyarray(py).unbind(),
         residual: orbit.residual,
         iterations: orbit.iterations,

@@ -69,6 +69,16 @@ pub enum StudyError {
     NobodyMoves,
 }
 
+impl From<saltus_orbits::ClimbError> for StudyError {
+    fn from(error: saltus_orbits::ClimbError) -> Self {
+        match error {
+            saltus_orbits::ClimbError::Exponent(error) => error.into(),
+            saltus_orbits::ClimbError::Build(error) => ModelError::from(error).into(),
+            saltus_orbits::ClimbError::Integrate(error) => error.into(),
+        }
+    }
+}
+
 impl From<crate::physics::PhysicsError> for StudyError {
     fn from(error: crate::physics::PhysicsError) -> Self {
         Self::Model(error.into())

@@ -1,8 +1,9 @@
 //! Lyapunov exponents of long-term motions, by the tangent flow.
 
-use saltus_hybrid::{End, Leg, Point, Sample, Status, System, Task, integrate_groups};
-use saltus_orbits::{Exponent, Spectrum};
+use saltus_hybrid::{Point, Sample, Status};
+use saltus_orbits::{Ascent, Exponent, Orbit, Place, Spectrum, Start, climb, settled};
 
+use super::orbits::stroboscopic;
 use super::{Control, StudyError, settle};
 use crate::model::{Model, ModelError};
 
@@ -13,12 +14,16 @@ const ALIGNMENT: u64 = 100;
 /// The exponents along a motion, per forcing period.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Growth {
-    /// The record; [`Spectrum::estimate`] gives the exponents.
+    /// The record of growth.
     pub spectrum: Spectrum,
-    /// Time integral of the divergence over a period, on average: see [`Model::divergence`].
-    pub divergence: f64,
+    /// Time integral of the divergence over each recorded period: see [`Model::divergence`].
+    pub divergences: Vec<f64>,
     /// How the run ended; the record goes as far as the run.
     pub status: Status,
+    /// Where it ended.
+    pub end: Point,
+    /// The cycle that the motion has come to; none for other motions, or if nobody looked.
+    pub cycle: Option<Orbit>,
 }
 
 /// The `columns` largest exponents over `periods` periods from each start, which is best on an attractor
@@ -32,98 +37,38 @@ pub fn growth(
     periods: u64,
     control: &Control,
 ) -> Result<Vec<Growth>, StudyError> {
-    let mut groups: Vec<Vec<Climb>> = Vec::new();
-    for (number, (model, point)) in starts.iter().enumerate() {
-        let spectrum = Spectrum::new(model.free_states(), columns)?;
-        let system = model
-            .system()
-            .with_tangents(columns)
-            .map_err(ModelError::from)?;
-        let mut start = system.point(&point.modes, &point.x[..model.free_states()]);
-        let first = spectrum.start_columns();
-        system.columns_mut(&mut start.x).copy_from_slice(&first);
-        let group = groups
-            .iter_mut()
-            .find(|group| system.same_structure(&group[0].system));
-        let climb = Climb {
-            number,
-            model,
-            control,
-            system,
-            start: Some(start),
-            periods: ALIGNMENT + periods,
-            out: Growth {
-                spectrum,
-                divergence: 0.0,
-                status: Status::Completed,
-            },
-            failed: false,
-        };
-        match group {
-            Some(group) => group.push(climb.sharing(&group[0])),
-            None => groups.push(vec![climb]),
+    let mut divergences = vec![Vec::new(); starts.len()];
+    let watched = starts.iter().zip(&mut divergences);
+    let climbs = watched.map(|((model, point), divergences)| Start {
+        system: model.system().clone(),
+        point: point.clone(),
+        watch: move |sample: &Sample<'_>| {
+            control.count_period();
+            if sample.period <= ALIGNMENT + 1 {
+                divergences.clear();
+            }
+            divergences.push(model.divergence(sample.dwell));
+        },
+    });
+    let how = Ascent {
+        columns,
+        transient: ALIGNMENT,
+        periods,
+    };
+    let (options, threads) = (&control.options, control.threads);
+    let climbed = climb(climbs.collect(), &how, options, threads, &control.stop)?;
+    let told = |(climbed, divergences): (saltus_orbits::Climbed, Vec<f64>)| {
+        let recorded = climbed.spectrum.iterates();
+        let left_out = divergences.len().saturating_sub(recorded);
+        Growth {
+            spectrum: climbed.spectrum,
+            divergences: divergences[left_out..].to_vec(),
+            status: climbed.end.status,
+            end: climbed.end.point,
+            cycle: None,
         }
-    }
-    let ended = integrate_groups(&control.options, groups, control.threads, &control.stop)?;
-    let mut ended: Vec<Climb> = ended.into_iter().flatten().collect();
-    ended.sort_by_key(|climb| climb.number);
-    Ok(ended.into_iter().map(Climb::result).collect())
-}
-
-/// One trajectory with its columns.
-struct Climb<'a> {
-    number: usize,
-    model: &'a Model,
-    control: &'a Control,
-    system: System,
-    start: Option<Point>,
-    periods: u64,
-    out: Growth,
-    failed: bool,
-}
-
-impl Climb<'_> {
-    /// With the structure object of another, which makes later comparisons cheap.
-    fn sharing(mut self, other: &Self) -> Self {
-        self.system = self.system.sharing(&other.system);
-        self
-    }
-
-    fn result(mut self) -> Growth {
-        self.out.divergence /= self.out.spectrum.iterates().max(1) as f64;
-        self.out
-    }
-}
-
-impl Task for Climb<'_> {
-    fn begin(&mut self) -> Option<Leg> {
-        Some(Leg {
-            system: self.system.clone(),
-            start: self.start.take()?,
-            periods: self.periods,
-        })
-    }
-
-    fn sample(&mut self, sample: &Sample<'_>) -> bool {
-        self.control.count_period();
-        // The columns of this period come after this call.
-        if sample.period <= ALIGNMENT + 1 {
-            self.out.spectrum.forget();
-        }
-        if sample.period > ALIGNMENT {
-            self.out.divergence += self.model.divergence(sample.dwell);
-        }
-        !self.failed
-    }
-
-    fn tangents(&mut self, columns: &mut [f64]) {
-        self.failed |= self.out.spectrum.feed(columns).is_err();
-    }
-
-    fn end(&mut self, end: End) -> Option<Leg> {
-        self.out.status = end.status;
-        None
-    }
+    };
+    Ok(climbed.into_iter().zip(divergences).map(told).collect())
 }
 
 /// How to measure the exponents of one motion.
@@ -143,15 +88,15 @@ impl Measurement {
     /// Periods to run in all, for a progress display.
     pub fn work(&self) -> u64 {
         let replicas = self.replicas.max(1) as u64;
-        self.transient + (replicas - 1) * APART + replicas * (ALIGNMENT + self.periods)
+        self.transient + (replicas - 1) * self.periods + replicas * (ALIGNMENT + self.periods)
     }
 }
 
-/// Periods from one replica's start to that of the next.
-const APART: u64 = 40;
-
-/// The exponents of the motion that `start` leads to, from replicas that begin at places along it. They are on one
-/// attractor whatever others there are, and their scatter is in the standard errors.
+/// The exponents of the motion that `start` leads to, from replicas: pieces of it, one after the other, whose tangents
+/// are followed side by side. None has seen what another has, and all are on one attractor whatever others there are.
+/// Together they are one long record, which tells what changes more slowly than one piece is long.
+///
+/// Where the motion has come to a cycle, [`Growth::cycle`] is that.
 ///
 /// # Errors
 /// As [`growth`].
@@ -163,38 +108,94 @@ pub fn lyapunov(
 ) -> Result<Growth, StudyError> {
     let (mut starts, mut at) = (Vec::new(), start.clone());
     for replica in 0..how.replicas.max(1) {
-        let periods = if replica == 0 { how.transient } else { APART };
+        // The columns take as long to turn into their directions in each piece, so records follow each other.
+        let periods = if replica == 0 {
+            how.transient
+        } else {
+            how.periods
+        };
         for settled in settle(&[(model.clone(), at.clone())], periods, 0, control)? {
             if settled.status != Status::Completed {
                 return Ok(Growth {
                     spectrum: Spectrum::new(model.free_states(), how.exponents)?,
-                    divergence: 0.0,
+                    divergences: Vec::new(),
                     status: settled.status,
+                    end: settled.end,
+                    cycle: None,
                 });
             }
             at = settled.end;
         }
         starts.push((model.clone(), at.clone()));
     }
-    let mut parts = growth(&starts, how.exponents, how.periods, control)?.into_iter();
-    let Some(mut all) = parts.next() else {
+    let mut pieces = growth(&starts, how.exponents, how.periods, control)?;
+    let Some(mut all) = pieces.pop() else {
         return Err(saltus_hybrid::IntegrateError::Interrupted.into());
     };
-    for part in parts {
-        all.spectrum.merge(&part.spectrum)?;
-        all.divergence += part.divergence;
-        if part.status != Status::Completed {
-            all.status = part.status;
+    let mut divergences = Vec::new();
+    for piece in pieces {
+        all.spectrum.merge(&piece.spectrum)?;
+        divergences.extend(piece.divergences);
+        if piece.status != Status::Completed {
+            all.status = piece.status;
         }
     }
-    all.divergence /= starts.len() as f64;
+    divergences.append(&mut all.divergences);
+    all.divergences = divergences;
+    if all.status == Status::Completed && all.spectrum.estimate()[0].per_iterate < 0.0 {
+        all.cycle = cycle(model, &all.end, control);
+    }
     Ok(all)
 }
 
+/// The cycle that a motion is on at a point.
+fn cycle(model: &Model, point: &Point, control: &Control) -> Option<Orbit> {
+    let family = stroboscopic(
+        model,
+        |_: &[f64]| Ok::<_, ModelError>(model.clone()),
+        control,
+    );
+    let place = Place {
+        modes: point.modes.clone(),
+        x: point.x[..model.free_states()].to_vec(),
+    };
+    settled(&family, &[], &place)
+}
+
 impl Growth {
+    /// The exponents: of the cycle, where the motion has come to one, else of the record.
+    pub fn exponents(&self) -> Vec<Exponent> {
+        match &self.cycle {
+            Some(orbit) => self.spectrum.on_cycle(orbit),
+            None => self.spectrum.estimate(),
+        }
+    }
+
+    /// Their sum, with its error.
+    pub fn sum(&self) -> Exponent {
+        let Some(orbit) = &self.cycle else {
+            return self.spectrum.sum();
+        };
+        let errors = self.exponents().into_iter().map(|e| e.standard_error);
+        Exponent {
+            per_iterate: self.spectrum.sum_of_last(orbit.period()),
+            standard_error: errors.sum(),
+            batches: 0,
+            batch_length: 0,
+        }
+    }
+
+    /// Mean divergence over a period: of the cycle once around, else of the record.
+    pub fn divergence(&self) -> f64 {
+        let all = self.divergences.as_slice();
+        let last = self.cycle.as_ref().map_or(all.len(), Orbit::period);
+        let whole = &all[all.len().saturating_sub(last)..];
+        whole.iter().sum::<f64>() / whole.len().max(1) as f64
+    }
+
     /// The largest exponent.
     pub fn largest(&self) -> Option<Exponent> {
-        self.spectrum.estimate().into_iter().next()
+        self.exponents().into_iter().next()
     }
 }
 
@@ -240,9 +241,9 @@ mod tests {
             let all = measured(&setup, 10, 60);
             let sum = all.spectrum.sum().per_iterate;
             assert!(
-                (sum - all.divergence).abs() < 1e-7,
+                (sum - all.divergence()).abs() < 1e-7,
                 "{sum} {}",
-                all.divergence
+                all.divergence()
             );
         }
     }
