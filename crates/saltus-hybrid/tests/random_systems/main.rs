@@ -126,7 +126,12 @@ fn against_plain(
     let show = || {
         format!(
             "{name}: {:?}\n  {:?}\n  {:?}\nplain: {:?}\n  {:?}\n  {:?}",
-            run.end.status, &found[..found.len().min(8)], run.samples, plain.ending, plain.switches, plain.samples
+            run.end.status,
+            &found[..found.len().min(8)],
+            run.samples,
+            plain.ending,
+            plain.switches,
+            plain.samples
         )
     };
     match (&run.end.status, &plain.ending) {

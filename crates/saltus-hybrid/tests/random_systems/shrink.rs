@@ -24,7 +24,11 @@ fn simpler(case: &Case) -> Vec<Case> {
     for unit in 0..case.units.len() {
         add(&|c| drop(c.units.remove(unit)));
     }
-    let droppable = if case.rates.len() > 1 { case.rates.len() } else { 0 };
+    let droppable = if case.rates.len() > 1 {
+        case.rates.len()
+    } else {
+        0
+    };
     (0..droppable).for_each(|state| add(&|c| c.drop_state(state)));
     for (unit, (start, modes)) in case.units.iter().enumerate() {
         for (at, mode) in modes.iter().enumerate() {
