@@ -307,7 +307,7 @@ fn what_is_no_version_is_not_cited() {
     simulated(&desk, "out");
     for version in ["1}} @evil{x, title={", "", "0.1.0 ", "v1", "1\n2"] {
         forge(&desk.path("out"), |manifest| {
-            manifest["version"] = json!(version)
+            manifest["version"] = json!(version);
         });
         saltus(&["cite", &desk.str("out")])
             .assert()
@@ -317,7 +317,7 @@ fn what_is_no_version_is_not_cited() {
     }
     for version in ["0.1.0", "10.2.3-beta.1+7f"] {
         forge(&desk.path("out"), |manifest| {
-            manifest["version"] = json!(version)
+            manifest["version"] = json!(version);
         });
         saltus(&["cite", &desk.str("out")])
             .assert()

@@ -1,6 +1,6 @@
 //! What is wrong with a study, where, and what would be right.
 
-use crate::shown::printable;
+use crate::shown::{printable, printable_lines};
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use std::fmt;
 use std::ops::Range;
@@ -50,7 +50,7 @@ impl StudyError {
     pub(crate) fn new(kind: StudyErrorKind, message: impl Into<String>) -> Self {
         Self(Box::new(Problem {
             kind,
-            message: printable(&message.into()),
+            message: printable_lines(&message.into()),
             help: None,
             key: None,
             place: None,
@@ -59,7 +59,7 @@ impl StudyError {
     }
 
     pub(crate) fn help(mut self, help: impl Into<String>) -> Self {
-        self.0.help = Some(printable(&help.into()));
+        self.0.help = Some(printable_lines(&help.into()));
         self
     }
 

@@ -1,5 +1,6 @@
 //! Dotted names such as `plate.length`, `jumper.mass` (every jumper) and `jumper.0.mass` (one).
 
+use crate::shown::printable;
 use std::fmt;
 
 /// A dotted name, segment by segment; empty for the study itself.
@@ -55,6 +56,6 @@ pub(crate) fn index(segment: &str) -> Option<usize> {
 
 impl fmt::Display for Key {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0.join("."))
+        f.write_str(&printable(&self.0.join(".")))
     }
 }

@@ -151,7 +151,10 @@ impl Node {
         }
         match self.kind() {
             Kind::Table => "a table".to_owned(),
-            Kind::Tables => "a list of tables".to_owned(),
+            Kind::Tables => match self.number("maxItems") {
+                Some(most) => format!("a list of at most {most} tables"),
+                None => "a list of tables".to_owned(),
+            },
             Kind::List => "a list".to_owned(),
             Kind::Number => format!("a number{}{}", self.range(), self.unit()),
             Kind::Integer => format!("a whole number{}", self.range()),

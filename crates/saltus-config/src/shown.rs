@@ -4,9 +4,18 @@ use std::fmt::Write;
 
 /// `text` on one line, with control characters and marks that change the direction of writing as `\u{1b}`.
 pub(crate) fn printable(text: &str) -> String {
+    escaped(text, |_| false)
+}
+
+/// As [`printable`], but line breaks stay: those of an override that somebody gave.
+pub(crate) fn printable_lines(text: &str) -> String {
+    escaped(text, |letter| letter == '\n')
+}
+
+fn escaped(text: &str, stays: impl Fn(char) -> bool) -> String {
     let mut shown = String::with_capacity(text.len());
     for letter in text.chars() {
-        if commands(letter) {
+        if commands(letter) && !stays(letter) {
             // writing to a string cannot fail
             let _ = write!(shown, "{}", letter.escape_default());
         } else {
