@@ -179,10 +179,6 @@ impl Panel<'_> {
     }
 
     fn branches(&self) -> Result<PanelBranches, StudyError> {
-        eprintln!(
-            "T {:?} {:?} {}",
-            self.diagram.law, self.diagram.reference, self.diagram.ratio
-        );
         let like = self.model_at(START)?;
         let family = stroboscopic(&like, |p: &[f64]| self.model_at(p[0]), self.control);
         let mut known = Known::default();
