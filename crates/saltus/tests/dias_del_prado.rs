@@ -29,6 +29,7 @@ fn effort() -> Effort {
         census_starts: 8,
         patience: 200,
         doublings: 1,
+        islands: 0,
         cascade_period: 8,
     }
 }

@@ -118,8 +118,11 @@ fn fig2(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
     let caption = format!(
         "Height of the body once per forcing period against its damping ratio, {} values, {} periods kept \
          after {}. Rising and falling sweeps carry the state on; the other colours start anew at each value \
-         with the plate at rest. Where colours part, attractors coexist.",
-        effort.values, effort.record, effort.transient
+         with the plate at rest. Where colours part, attractors coexist, or transients are long: {}.",
+        effort.values,
+        effort.record,
+        effort.transient,
+        tables::came_to(results)
     );
     let data = [
         ("a", "fig2a.csv"),

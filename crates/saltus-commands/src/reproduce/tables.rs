@@ -98,6 +98,24 @@ fn sweeps(folder: &mut dyn Store, results: &Results) -> Result<(), Failure> {
     )
 }
 
+/// What the motions of Fig. 2 have come to, counted.
+pub(super) fn came_to(results: &Results) -> String {
+    let met = panels(results).flat_map(|(diagram, panel)| {
+        let met = |row| Diagram::met(row, &panel.stretches);
+        diagram.rows.iter().map(met)
+    });
+    let (mut all, mut on, mut slow) = (0, 0, 0);
+    for met in met {
+        all += 1;
+        on += u32::from(matches!(met, Met::Cycle(_)));
+        slow += u32::from(matches!(met, Met::Slow(_)));
+    }
+    format!(
+        "of {all} motions {on} are on a stable cycle and {slow} on a slow way to one (they repeat, but no such cycle is \
+         stable there), as they are beside a bifurcation"
+    )
+}
+
 /// The diagrams of the paper's law under the occupied reading, with what is behind them.
 pub(super) fn panels(results: &Results) -> impl Iterator<Item = (&Diagram, &PanelBranches)> {
     let all = results.diagrams.iter().zip(&results.branches);

@@ -11,18 +11,19 @@ use saltus_orbits::{
     SpecialKind, find_orbit,
 };
 
-/// Step of the differences: 1e-12 of curvature, and 1e-14 of noise over 1e-5.
-const STEP: f64 = 1e-5;
+/// Step of the differences: 4e-12 of curvature, and 1e-14 of noise over 2e-6. Longer ones reach across grazings that
+/// lie beside a special point.
+const STEP: f64 = 2e-6;
 
 /// How far aside the secant method begins, as a part of the range; nearer where a fold leaves no orbits there. It
 /// may go as many times as far as the second number says, or it has found another point.
 const ASIDE: [f64; 2] = [1e-6, 1e-8];
 const ASTRAY: f64 = 30.0;
 
-/// Distances from a fold at which orbits are taken, as parts of the range: near, since what the parabola leaves
-/// out falls with them, and nearer or further where no orbits are found so.
-const NEAR_FOLD: [f64; 3] = [1e-8, 4e-8, 9e-8];
-const NEARER: [f64; 3] = [1.0, 1e-2, 1e2];
+/// Distances from a fold at which orbits are taken, as parts of the range; a hundredth of them where the
+/// multiplier is far from 1 there.
+const NEAR_FOLD: [f64; 3] = [1e-6, 4e-6, 9e-6];
+const NEARER: [f64; 3] = [1.0, 1e-2, 1e-4];
 
 /// Half the first bracket around a grazing, as a part of the range, and when it is narrow enough.
 const BRACKET: f64 = 1e-5;

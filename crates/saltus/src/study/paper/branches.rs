@@ -27,10 +27,6 @@ const ALONG: Along = Along {
 /// Where the main branch of each panel is met: its long-term motion at high damping.
 const START: f64 = 0.45;
 
-/// Longest period of a cycle, met by a motion, whose branch is followed over the whole range; longer ones are
-/// followed as far as they are stable.
-const LONGEST: usize = 8;
-
 /// Points with unstable orbits that end a branch which is followed for its stable part.
 const BEYOND: usize = 3;
 
@@ -324,7 +320,9 @@ impl Panel<'_> {
         // Islands are small, and their cascades too.
         let entire = match (self.is_papers(), known.limbs.is_empty()) {
             (true, true) => Some(self.effort.doublings),
-            (true, false) if orbit.period() <= LONGEST => Some(self.effort.doublings.min(1)),
+            (true, false) if orbit.period() <= self.effort.islands => {
+                Some(self.effort.doublings.min(1))
+            }
             _ => None,
         };
         let options = BranchesOptions {

@@ -55,6 +55,9 @@ pub struct Effort {
     pub patience: u64,
     /// Doublings of the period whose branches are followed over the whole range.
     pub doublings: usize,
+    /// Longest period of a cycle beside the main branch whose branch is followed over the whole range; longer ones are
+    /// followed as far as they are stable.
+    pub islands: usize,
     /// Longest period of a cycle whose doubling is sought in a cascade.
     pub cascade_period: usize,
 }
@@ -76,6 +79,7 @@ impl Effort {
             census_starts: 32,
             patience: 2000,
             doublings: 2,
+            islands: 8,
             cascade_period: 64,
         }
     }
@@ -96,6 +100,7 @@ impl Effort {
             census_starts: 8,
             patience: 500,
             doublings: 1,
+            islands: 0,
             cascade_period: 16,
         }
     }
