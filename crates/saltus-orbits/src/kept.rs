@@ -9,6 +9,9 @@ use crate::{Family, Matrix, Place, Shot};
 /// A vector solves the equations if no more than this part of them is left: derivatives have errors of some 1e-12.
 const SOLVED: f64 = 1e-9;
 
+/// A value that is nearer than this, relative to its terms, is the same.
+const HELD: f64 = 1e-8;
+
 /// States for which quadratic quantities are looked for: the work grows as the fifth power of their number.
 const STATES: usize = 16;
 
@@ -39,6 +42,12 @@ impl Kept {
     /// Its gradient at `x`.
     pub(crate) fn slope(&self, x: &[f64]) -> Vec<f64> {
         plus(&self.a, 1.0, &times(&self.b, x))
+    }
+
+    /// Whether its value is that at `x`, for all that matters.
+    pub(crate) fn holds(&self, x: &[f64]) -> bool {
+        let scale = (norm(&self.a) + norm(&times(&self.b, x))) * norm(x);
+        self.missing(x).abs() <= HELD * scale.max(self.value.abs())
     }
 
     /// What its value has more than that at `x`.

@@ -9,6 +9,10 @@ use crate::{Crossing, Family, Lost, Matrix, Place, Touch};
 /// at the default tolerance leaves places uncertain by less, except within 1e-13 of a period doubling.
 const SAME: f64 = 1e-7;
 
+/// A multiplier so near to 1 may be that of a quantity that is kept: where its equations are singular, Newton's method
+/// comes to an orbit with half of the digits only.
+const NEAR_ONE: f64 = 1e-3;
+
 /// How orbits are solved for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NewtonOptions {
@@ -48,6 +52,11 @@ impl Multiplier {
     /// Its absolute value: the factor by which a disturbance grows in one period of the orbit.
     pub fn modulus(self) -> f64 {
         self.re.hypot(self.im)
+    }
+
+    /// How far from 1 it is.
+    fn from_one(self) -> f64 {
+        (self.re - 1.0).hypot(self.im)
     }
 
     /// Its angle, from -pi to pi (rad).
@@ -141,7 +150,7 @@ impl Orbit {
     /// Whether a multiplier is 1 to its error: other orbits lie beside this one, as many as a conserved quantity has
     /// values, or it is at a fold or a branch point.
     pub fn in_family(&self) -> bool {
-        let one = |m: &Multiplier| (m.re - 1.0).hypot(m.im) <= m.error;
+        let one = |m: &Multiplier| m.from_one() <= m.error;
         self.multipliers.iter().any(one)
     }
 
@@ -232,6 +241,15 @@ pub enum NotFound {
         /// The last guess.
         places: Vec<Place>,
     },
+    /// The map keeps a quantity, and an orbit with the value of the start was not found.
+    #[error(
+        "orbits lie in a family, since a quantity is kept along each motion, and none was found with the value that \
+         it has at the start; try a start nearer to the orbit"
+    )]
+    OtherMember {
+        /// An orbit with another value.
+        places: Vec<Place>,
+    },
     /// The map has no image there.
     #[error("Newton's method left the map at a residual of {residual:.1e}: {reason}")]
     Lost {
@@ -277,7 +295,7 @@ pub fn find_orbit<F: Family + ?Sized>(
     };
     let solve = |places: &[Place], kept: &[Kept]| {
         let once = |places: &[Place]| {
-            let pass = alone(family, options, kept).correct(&guess(places), &[])?;
+            let pass = plain(family, options, kept).correct(&guess(places), &[])?;
             Orbit::of(&pass, options.tolerance)
         };
         let orbit = once(places)?;
@@ -288,32 +306,42 @@ pub fn find_orbit<F: Family + ?Sized>(
     };
     let first = solve(start, &[]);
     let places = match &first {
-        Ok(orbit) if orbit.in_family() => &orbit.places,
+        Ok(orbit) if orbit.multipliers.iter().any(|m| m.from_one() <= NEAR_ONE) => &orbit.places,
         Err(NotFound::Singular { places, .. }) => places,
         _ => return first,
     };
     // Of a family the member is meant that has what is kept from the start.
     let linear = || {
-        let slope = alone(family, options, &[])
+        let slope = plain(family, options, &[])
             .pass(&guess(places))
             .ok()?
             .best_kept()?;
         Some(vec![Kept::linear(slope, &start[0].x)])
     };
     let quadratic = kept(family, parameters, &start[0]).filter(|all| !all.is_empty());
-    let Some(all) = quadratic.or_else(linear) else {
+    let alone = first.as_ref().is_ok_and(|orbit| !orbit.in_family());
+    let Some(all) = quadratic.or_else(|| if alone { None } else { linear() }) else {
         return first;
     };
-    match (solve(start, &all).or_else(|_| solve(places, &all)), &first) {
-        (Ok(orbit), _) if orbit.in_family() => Ok(orbit),
-        // any other member is not what was asked for
-        (Err(error), Ok(_)) => Err(error),
-        _ => first,
+    let member = |places: &[Place]| {
+        let orbit = solve(places, &all)?;
+        let x = &orbit.places[0].x;
+        if all.iter().all(|kept| kept.holds(x)) {
+            Ok(orbit)
+        } else {
+            Err(NotFound::OtherMember {
+                places: orbit.places,
+            })
+        }
+    };
+    match (member(start).or_else(|_| member(places)), &first) {
+        (Err(_), Err(_)) => first,
+        (found, _) => found,
     }
 }
 
 /// The equations of an orbit without free parameters.
-fn alone<'a, F: ?Sized>(
+fn plain<'a, F: ?Sized>(
     family: &'a F,
     newton: &'a NewtonOptions,
     kept: &'a [Kept],

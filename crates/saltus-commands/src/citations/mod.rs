@@ -67,6 +67,8 @@ const TANGENTS: Uses = &[
 const EXPONENTS: Uses = &[
     ("Benettin1980", "Lyapunov exponents from tangent columns"),
     ("FlegalJones2010", "standard errors of exponents"),
+    ("Schmeiser1982", "few and long batches behind them"),
+    ("VatsFlegal2022", "what batches miss of slow correlations"),
     ("Das2017", "weighted Birkhoff averages"),
     ("SanderMeiss2020", "chaos told from motion on a torus"),
 ];
