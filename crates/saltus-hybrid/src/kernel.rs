@@ -260,6 +260,9 @@ impl Kernel {
         self.tail = self.tail_of_states(arith);
         let tangents = self.structure.tangents.as_ref();
         self.tangent_tail = tangents.map(|t| self.tail_of_tangents(arith, t.first));
+        if self.sizes.are_due() {
+            self.measure();
+        }
         for slot in 0..LANES {
             self.lengths.0[slot] = self.length(slot);
         }
@@ -272,7 +275,7 @@ impl Kernel {
         let mut tail = [arith.splat(0.0); 2];
         let mut growth = arith.splat(0.0);
         let zero = arith.splat(0.0);
-        let sizes = self.sizes.of.iter_mut().zip(&self.structure.state_slots);
+        let sizes = self.sizes.of.iter().zip(&self.structure.state_slots);
         for (size, &slot) in sizes {
             let unit = arith.load(&size.inverse);
             for (k, tail) in [self.order, self.order - 1].into_iter().zip(&mut tail) {
@@ -280,12 +283,10 @@ impl Kernel {
                 // The maximum may drop a NaN; adding 0 x keeps it.
                 *tail = arith.mul_add(term, zero, tail.max(term.abs()));
             }
-            let value = arith.load(self.series.at(slot, 0));
-            tail[0] = arith.mul_add(value, zero, tail[0]);
-            let largest = arith.load(&size.now).max(value.abs());
-            size.now = arith.store(largest);
-            growth = growth.max(arith.mul(largest, unit));
+            let value = arith.mul(arith.load(self.series.at(slot, 0)), unit);
+            growth = arith.mul_add(value, zero, growth.max(value.abs()));
         }
+        tail[0] = arith.mul_add(growth, zero, tail[0]);
         self.sizes.growth = arith.store(growth);
         tail.map(|t| arith.store(t))
     }
@@ -313,12 +314,9 @@ impl Kernel {
     /// Length of the step: the last two terms of the series stay below the tolerance, in units of the size
     /// of each state and of the largest tangent, and it ends at the next sample at the latest.
     #[inline(always)]
-    fn length(&mut self, slot: usize) -> f64 {
+    fn length(&self, slot: usize) -> f64 {
         if !self.is_finite(slot) {
             return 0.0;
-        }
-        if self.sizes.are_due(slot) {
-            self.measure(slot);
         }
         let p = self.order as f64;
         let allowed = |tail: &[Pack; 2]| {
@@ -329,18 +327,21 @@ impl Kernel {
         allowed(&self.tail).min(tangents).min(self.left.0[slot])
     }
 
-    /// Sizes of the states of a lane that have none yet or have outgrown theirs, and its tail with these.
+    /// Sizes of states that have none yet or have outgrown theirs, and the tail of their lanes with these.
     #[cold]
-    fn measure(&mut self, slot: usize) {
-        let controlled = &self.structure.state_slots[..self.structure.controlled];
-        let series = |&state: &usize| self.power(slot, state).map(f64::abs).collect();
-        let series: Vec<Vec<f64>> = controlled.iter().map(series).collect();
-        let (longest, tolerance) = (self.left.0[slot], self.tolerance);
-        self.sizes.measure(slot, longest, tolerance, &series);
-        for (k, tail) in [self.order, self.order - 1].into_iter().zip(&mut self.tail) {
-            let terms = series.iter().zip(&self.sizes.of);
-            let terms = terms.map(|(series, size)| series[k] * size.inverse.0[slot]);
-            tail.0[slot] = terms.fold(0.0, f64::max);
+    fn measure(&mut self) {
+        let due = (0..LANES).filter(|&slot| self.sizes.is_due(slot) && self.is_finite(slot));
+        for slot in due.collect::<Vec<_>>() {
+            let controlled = &self.structure.state_slots[..self.structure.controlled];
+            let series = |&state: &usize| self.power(slot, state).map(f64::abs).collect();
+            let series: Vec<Vec<f64>> = controlled.iter().map(series).collect();
+            let (longest, tolerance) = (self.left.0[slot], self.tolerance);
+            self.sizes.measure(slot, longest, tolerance, &series);
+            for (k, tail) in [self.order, self.order - 1].into_iter().zip(&mut self.tail) {
+                let terms = series.iter().zip(&self.sizes.of);
+                let terms = terms.map(|(series, size)| series[k] * size.inverse.0[slot]);
+                tail.0[slot] = terms.fold(0.0, f64::max);
+            }
         }
     }
 

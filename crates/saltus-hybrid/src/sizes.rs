@@ -1,6 +1,6 @@
 //! How large the states of each lane are: what the error of a step is relative to.
 //!
-//! A state is as large as it has been in this period, at least as large as its scale
+//! A state is as large as it has been in this period, to a factor of [`OUTGROWN`], at least as large as its scale
 //! ([`SystemBuilder::scale`](crate::SystemBuilder::scale)), and forgets what it was before by a factor of
 //! [`FORGETS`] a period. Until it has been anything, at the start of a leg and after a switch, it is as large as
 //! the largest term of its series in the coming step.
@@ -19,8 +19,6 @@ pub(crate) struct Size {
     /// 1 over the size; 0 if there is none.
     pub(crate) inverse: Pack,
     size: Pack,
-    /// Largest absolute value in this period.
-    pub(crate) now: Pack,
     scale: Pack,
 }
 
@@ -48,7 +46,6 @@ impl Sizes {
         let scales = scales.iter().copied().chain(std::iter::repeat(0.0));
         for (size, scale) in self.of.iter_mut().zip(scales) {
             size.scale.0[lane] = scale;
-            size.now.0[lane] = 0.0;
             size.set(lane, scale);
         }
     }
@@ -58,23 +55,28 @@ impl Sizes {
         self.unknown[lane] |= self.of.iter().any(|size| size.inverse.0[lane] == 0.0);
     }
 
-    pub(crate) fn period_ends(&mut self, lane: usize) {
-        for size in &mut self.of {
-            let known = size.now.0[lane].max(size.size.0[lane] / FORGETS);
+    /// A period ends at the state `x`.
+    pub(crate) fn period_ends(&mut self, lane: usize, x: &[f64]) {
+        for (size, x) in self.of.iter_mut().zip(x) {
+            let known = x.abs().max(size.size.0[lane] / FORGETS);
             size.set(lane, known.max(size.scale.0[lane]));
-            size.now.0[lane] = 0.0;
         }
     }
 
     /// How large the states of a lane have been.
     pub(crate) fn of_lane(&self, lane: usize) -> Vec<f64> {
-        let largest = |size: &Size| size.now.0[lane].max(size.size.0[lane]);
-        self.of.iter().map(largest).collect()
+        self.of.iter().map(|size| size.size.0[lane]).collect()
     }
 
-    /// Whether states of the lane are to be measured.
+    /// Whether states of any lane are to be measured.
     #[inline(always)]
-    pub(crate) fn are_due(&self, lane: usize) -> bool {
+    pub(crate) fn are_due(&self) -> bool {
+        (0..LANES).any(|lane| self.is_due(lane))
+    }
+
+    /// Whether those of this lane are.
+    #[inline(always)]
+    pub(crate) fn is_due(&self, lane: usize) -> bool {
         self.unknown[lane] || self.growth.0[lane] > OUTGROWN
     }
 
@@ -94,7 +96,7 @@ impl Sizes {
             length.min(longest_step(series, tolerance))
         });
         for (size, series) in self.of.iter_mut().zip(series) {
-            let mut known = size.now.0[lane].max(size.size.0[lane]);
+            let mut known = series[0].max(size.size.0[lane]);
             if unknown(size) {
                 let power = |k: usize| length.powi(k as i32);
                 let terms = series.iter().enumerate().map(|(k, a)| a * power(k));
