@@ -55,7 +55,7 @@ impl Multiplier {
     }
 
     /// How far from 1 it is.
-    fn from_one(self) -> f64 {
+    fn off_one(self) -> f64 {
         (self.re - 1.0).hypot(self.im)
     }
 
@@ -150,7 +150,7 @@ impl Orbit {
     /// Whether a multiplier is 1 to its error: other orbits lie beside this one, as many as a conserved quantity has
     /// values, or it is at a fold or a branch point.
     pub fn in_family(&self) -> bool {
-        let one = |m: &Multiplier| m.from_one() <= m.error;
+        let one = |m: &Multiplier| m.off_one() <= m.error;
         self.multipliers.iter().any(one)
     }
 
@@ -306,7 +306,7 @@ pub fn find_orbit<F: Family + ?Sized>(
     };
     let first = solve(start, &[]);
     let places = match &first {
-        Ok(orbit) if orbit.multipliers.iter().any(|m| m.from_one() <= NEAR_ONE) => &orbit.places,
+        Ok(orbit) if orbit.multipliers.iter().any(|m| m.off_one() <= NEAR_ONE) => &orbit.places,
         Err(NotFound::Singular { places, .. }) => places,
         _ => return first,
     };
