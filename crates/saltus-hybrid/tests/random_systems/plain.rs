@@ -230,7 +230,7 @@ impl Case {
             let sides = self.sides(&at)?;
             let rules = self.rules(&at.modes);
             let next = rules.iter().zip(sides).find(|((unit, _, _), side)| {
-                side.ends() && !(side.may_be_held() && !moved.contains(unit))
+                side.ends() && (moved.contains(unit) || !side.may_be_held())
             });
             let Some((&(unit, _, rule), _)) = next else {
                 return Ok(true);
