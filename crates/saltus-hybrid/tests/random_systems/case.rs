@@ -215,7 +215,10 @@ impl FromStr for Case {
             .filter(|line| line.starts_with("state "))
             .count();
         let mut case = Self::default();
-        for line in text.lines() {
+        for line in text
+            .lines()
+            .filter(|line| !line.starts_with('#') && !line.is_empty())
+        {
             case.statement(line, states)
                 .ok_or_else(|| format!("not a statement: {line}"))?;
         }

@@ -14,6 +14,8 @@ pub(crate) struct Kinds {
     pub(crate) wrong_sides: bool,
     /// Contact that lasts, sticking: guards that are zero to a multiplicity.
     pub(crate) lasting: bool,
+    /// Guards with products of states.
+    pub(crate) curved_guards: bool,
 }
 
 /// Steele, Lea & Flood's SplitMix64 (OOPSLA 2014).
@@ -77,7 +79,7 @@ struct Maker<'a> {
 impl Maker<'_> {
     /// One or two damped parts, loosely coupled: each a state that relaxes or an oscillator.
     fn background(&mut self) {
-        self.case.omega = self.random.number(0.6, 3.0);
+        self.case.omega = self.random.number(1.2, 3.0);
         self.case.periods = 2 + self.random.below(2) as u64;
         for _ in 0..1 + self.random.below(2) {
             if self.random.chance(40) {
@@ -163,7 +165,7 @@ impl Maker<'_> {
         if self.random.chance(25) {
             terms.push((self.random.either(0.1, 0.5), vec![SIN]));
         }
-        if self.random.chance(25) {
+        if self.kinds.curved_guards && self.random.chance(25) {
             let (i, j) = (self.some_state(), self.some_state());
             terms.push((self.random.either(0.1, 0.5), vec![i, j]));
         }

@@ -1,17 +1,19 @@
 //! A plain stepper: classical Runge-Kutta in tiny steps, switches by bisection, and the rules of events taken from
-//! their description in docs/numerics.md. It knows nothing of the engine.
+//! their description in docs/numerics.md ("Rules of events"). It knows nothing of the engine.
 //!
 //! Where the motion itself hangs on less than the accuracy of either side, the run says that it is doubtful, and
 //! why: that is the only ground on which a case is left out of the comparison.
 
-use crate::case::{Case, Mode, Poly, Rule};
+use crate::case::{Case, Poly, Rule};
 
 /// Steps in a period.
 pub(crate) const STEPS: u32 = 600;
 /// Orders of a guard's series that are looked at where it is zero.
 const ORDERS: usize = 6;
 /// Below this part of its own terms a coefficient is zero, to rounding.
-const ZERO: f64 = 1e-10;
+const ZERO: f64 = 2e-12;
+/// A variable near zero is the difference of terms of at least this size.
+const SMALL: f64 = 0.1;
 /// Between zero and this it is too small to tell.
 const UNCLEAR: f64 = 1e-7;
 /// A guard that comes so near to zero, in units of its terms, and turns back, grazes; one that crosses at less than
@@ -25,6 +27,17 @@ const TOO_CLOSE: f64 = 1e-6;
 pub(crate) const MOST: u32 = 100;
 /// A state beyond this is on its way to infinity.
 const LARGE: f64 = 30.0;
+
+/// Whether to compare cases in which a held guard turns away: the engine locates a turn to the accuracy of its
+/// interpolant only, and other guards of the same state are judged by what is left of the rate.
+const TURNS: bool = false;
+/// Whether to compare cases in which a chain of switches at one instant is found to lead nowhere: the engine forgets
+/// within it that the guard it began with is zero.
+const HELD_IN_CHAINS: bool = false;
+
+/// Whether to compare cases in which two units switch at the instant of a sample: where one of them is found an ulp
+/// before it, the engine takes the sample before the other.
+const TWO_AT_A_SAMPLE: bool = false;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Switch {
@@ -69,26 +82,164 @@ pub(crate) fn run(case: &Case, last_first: bool) -> Result<Run, Doubt> {
 /// What a guard is about to do.
 #[derive(Clone, Copy, PartialEq)]
 enum Stand {
-    /// On its right side: the mode ends where it reaches zero.
+    /// On its right side: it fires where it reaches zero.
     Armed,
-    /// Zero, or on its way back from the wrong side: nothing happens before it has come to the right side.
+    /// Zero: nothing happens before it has come to its right side.
     Idle,
-    /// On its wrong side, or about to be.
+    /// Beyond zero and not going further, and firing would lead nowhere: it fires where it turns away.
+    Held,
+    /// It falls from zero, or is beyond.
     Due,
+}
+
+/// A guard just after a point, as its mode sees it: zero derivatives before the first that is not, the sign of that
+/// one, and that of the next.
+#[derive(Clone, Copy)]
+struct Side {
+    zeros: usize,
+    sign: f64,
+    trend: f64,
+}
+
+impl Side {
+    fn ends(self) -> bool {
+        self.sign < 0.0
+    }
+
+    fn may_be_held(self) -> bool {
+        self.ends() && self.zeros == 0 && self.trend >= 0.0
+    }
+}
+
+/// Modes, and all variables: states, cos, sin.
+#[derive(Clone)]
+struct Place {
+    modes: Vec<usize>,
+    v: Vec<f64>,
 }
 
 struct Stepper<'a> {
     case: &'a Case,
     last_first: bool,
-    modes: Vec<usize>,
-    /// Time within the period, and all variables: states, cos, sin.
+    /// Time within the period.
     time: f64,
-    v: Vec<f64>,
+    at: Place,
     /// Rates in the present modes.
     field: Vec<Poly>,
     stands: Vec<Stand>,
+    /// Rules held: unit and place in its mode.
+    held: Vec<(usize, usize)>,
     recent: u32,
     out: Run,
+}
+
+impl Case {
+    /// Rules in force, with their unit and place.
+    fn rules(&self, modes: &[usize]) -> Vec<(usize, usize, &Rule)> {
+        let of = |unit: usize| {
+            let rules = self.units[unit].1[modes[unit]].rules.iter().enumerate();
+            rules.map(move |(i, rule)| (unit, i, rule))
+        };
+        (0..modes.len()).flat_map(of).collect()
+    }
+
+    /// The field in these modes.
+    fn field(&self, modes: &[usize]) -> Vec<Poly> {
+        let mut field = self.rates.clone();
+        for (&mode, (_, all)) in modes.iter().zip(&self.units) {
+            for (state, add) in &all[mode].adds {
+                field[*state].0.extend(add.0.iter().cloned());
+            }
+        }
+        field
+    }
+
+    fn carry_out(&self, (unit, rule): (usize, &Rule), at: &mut Place) {
+        let values: Vec<f64> = rule
+            .resets
+            .iter()
+            .map(|(_, value)| value.value(&at.v))
+            .collect();
+        for ((state, _), value) in rule.resets.iter().zip(values) {
+            at.v[*state] = value;
+        }
+        at.modes[unit] = rule.to;
+    }
+
+    /// Sides of the rules in force.
+    fn sides(&self, at: &Place) -> Result<Vec<Side>, Doubt> {
+        let field = self.field(&at.modes);
+        let values = self.series(&field, &at.v, |c| c);
+        let sizes: Vec<f64> = at.v.iter().map(|v| v.abs() + SMALL).collect();
+        let sizes = self.series(&field, &sizes, f64::abs);
+        let side = |(_, _, rule): &(usize, usize, &Rule)| {
+            let guard = of_series(&rule.guard, &values, |c| rule.sign * c);
+            let size = of_series(&rule.guard, &sizes, f64::abs);
+            let mut signs = guard.iter().zip(size).map(|(g, size)| {
+                let part = g / size.max(f64::MIN_POSITIVE);
+                match part.abs() {
+                    p if p <= ZERO => Ok(0.0),
+                    p if p <= UNCLEAR => Err("nearly zero"),
+                    _ => Ok(part.signum()),
+                }
+            });
+            let mut nonzero = || {
+                signs
+                    .by_ref()
+                    .find(|sign| *sign != Ok(0.0))
+                    .unwrap_or(Ok(0.0))
+            };
+            let sign = nonzero()?;
+            let zeros = guard
+                .iter()
+                .zip(size)
+                .take_while(|(g, size)| g.abs() <= ZERO * size)
+                .count();
+            let trend = if sign < 0.0 { nonzero()? } else { 0.0 };
+            Ok(Side { zeros, sign, trend })
+        };
+        self.rules(&at.modes).iter().map(side).collect()
+    }
+
+    /// Taylor coefficients of all variables, their numbers passed through `part`.
+    fn series(&self, field: &[Poly], v: &[f64], part: fn(f64) -> f64) -> Vec<[f64; ORDERS]> {
+        let n = field.len();
+        let first = |&v: &f64| std::array::from_fn(|k| if k == 0 { part(v) } else { 0.0 });
+        let mut out: Vec<[f64; ORDERS]> = v.iter().map(first).collect();
+        for k in 1..ORDERS {
+            let rate = |poly: &Poly| of_series(poly, &out, part)[k - 1];
+            let mut next: Vec<f64> = field.iter().map(rate).collect();
+            next.extend([
+                part(-self.omega) * out[n + 1][k - 1],
+                self.omega * out[n][k - 1],
+            ]);
+            for (series, next) in out.iter_mut().zip(next) {
+                series[k] = next / k as f64;
+            }
+        }
+        out
+    }
+
+    /// Whether firing a rule leads, by whatever fires with it, to modes that last.
+    fn settles(&self, at: &Place, (unit, rule): (usize, &Rule)) -> Result<bool, Doubt> {
+        let mut at = at.clone();
+        let mut moved = vec![unit];
+        self.carry_out((unit, rule), &mut at);
+        let modes: usize = self.units.iter().map(|(_, modes)| modes.len()).sum();
+        for _ in 0..2 * modes {
+            let sides = self.sides(&at)?;
+            let rules = self.rules(&at.modes);
+            let next = rules.iter().zip(sides).find(|((unit, _, _), side)| {
+                side.ends() && (moved.contains(unit) || !side.may_be_held())
+            });
+            let Some((&(unit, _, rule), _)) = next else {
+                return Ok(true);
+            };
+            moved.push(unit);
+            self.carry_out((unit, rule), &mut at);
+        }
+        Ok(false)
+    }
 }
 
 impl<'a> Stepper<'a> {
@@ -101,46 +252,30 @@ impl<'a> Stepper<'a> {
             ending: Ending::Completed,
             tie: false,
         };
-        let mut stepper = Self {
+        Self {
             case,
             last_first,
-            modes: case.modes(),
             time: 0.0,
-            v,
-            field: Vec::new(),
+            at: Place {
+                modes: case.modes(),
+                v,
+            },
+            field: case.field(&case.modes()),
             stands: Vec::new(),
+            held: Vec::new(),
             recent: 0,
             out,
-        };
-        stepper.enter();
-        stepper
-    }
-
-    fn mode(&self, unit: usize) -> &'a Mode {
-        &self.case.units[unit].1[self.modes[unit]]
-    }
-
-    /// Rules in force, with their unit.
-    fn rules(&self) -> Vec<(usize, &'a Rule)> {
-        let of = |unit| self.mode(unit).rules.iter().map(move |rule| (unit, rule));
-        (0..self.modes.len()).flat_map(of).collect()
-    }
-
-    /// The field of the present modes.
-    fn enter(&mut self) {
-        self.field = self.case.rates.clone();
-        for unit in 0..self.modes.len() {
-            for (state, add) in &self.mode(unit).adds {
-                self.field[*state].0.extend(add.0.iter().cloned());
-            }
         }
+    }
+
+    fn total_time(&self) -> f64 {
+        self.out.samples.len() as f64 * self.case.period() + self.time
     }
 
     /// One period, with its sample; false if the run is over.
     fn period(&mut self) -> Result<bool, Doubt> {
-        let period = self.case.period();
+        let (period, n) = (self.case.period(), self.field.len());
         (self.time, self.recent) = (0.0, 0);
-        self.clock(0.0);
         if !self.at_once()? {
             return Ok(false);
         }
@@ -158,25 +293,23 @@ impl<'a> Stepper<'a> {
             } else {
                 (2.0 * h).min(whole)
             };
-            if switched && !self.at_once()? {
-                return Ok(false);
+            if switched {
+                let before = self.out.switches.len();
+                if !self.at_once()? {
+                    return Ok(false);
+                }
+                if self.out.switches.len() == before {
+                    return Err("nearly zero");
+                }
             }
         }
-        self.stand()?;
         if !self.at_once()? {
             return Ok(false);
         }
-        let n = self.case.rates.len();
         self.out
             .samples
-            .push((self.modes.clone(), self.v[..n].to_vec()));
+            .push((self.at.modes.clone(), self.at.v[..n].to_vec()));
         Ok(true)
-    }
-
-    fn clock(&mut self, time: f64) {
-        let n = self.case.rates.len();
-        let (sin, cos) = (self.case.omega * time).sin_cos();
-        (self.v[n], self.v[n + 1]) = (cos, sin);
     }
 
     fn rates(&self, v: &[f64]) -> Vec<f64> {
@@ -190,12 +323,12 @@ impl<'a> Stepper<'a> {
     fn ahead(&self, h: f64) -> Vec<f64> {
         let n = self.field.len();
         let at = |k: &[f64], h: f64| -> Vec<f64> {
-            let mut v: Vec<f64> = self.v.iter().zip(k).map(|(v, k)| v + h * k).collect();
+            let mut v: Vec<f64> = self.at.v.iter().zip(k).map(|(v, k)| v + h * k).collect();
             let (sin, cos) = (self.case.omega * (self.time + h)).sin_cos();
             (v[n], v[n + 1]) = (cos, sin);
             v
         };
-        let a = self.rates(&self.v);
+        let a = self.rates(&self.at.v);
         let b = self.rates(&at(&a, 0.5 * h));
         let c = self.rates(&at(&b, 0.5 * h));
         let d = self.rates(&at(&c, h));
@@ -203,71 +336,90 @@ impl<'a> Stepper<'a> {
         at(&(0..a.len()).map(mean).collect::<Vec<_>>(), h)
     }
 
-    /// Goes on by `h`, or to the first switch before and carries it out; tells whether there was one.
+    /// The drive at a sample.
+    fn exact_drive(&mut self) {
+        let n = self.field.len();
+        (self.at.v[n], self.at.v[n + 1]) = (1.0, 0.0);
+    }
+
+    /// Goes on by `h`, or to the place of the first switch before; tells whether there is one.
     fn step(&mut self, h: f64) -> Result<bool, Doubt> {
         let end = self.ahead(h);
         if end.iter().any(|x| x.is_nan() || x.abs() > LARGE) {
             return Err("large");
         }
-        let rates = [&self.v, &end].map(|v| self.rates(v));
         let mut found: Vec<(f64, usize)> = Vec::new();
-        let rules = self.rules();
-        for (at, (_, rule)) in rules.iter().enumerate() {
-            let [g0, g1] = [&self.v, &end].map(|v| rule.sign * rule.guard.value(v));
-            let [d0, d1] =
-                [(&self.v, 0), (&end, 1)].map(|(v, i)| rule.sign * rule.guard.rate(v, &rates[i]));
-            let size = size(&rule.guard, &self.v);
-            match self.stands[at] {
-                Stand::Armed if g1 <= 0.0 => {
-                    let time = self.bisect(rule, h);
-                    if d0.min(d1) > -GRAZE * size {
-                        return Err("grazing");
-                    }
-                    found.push((time, at));
-                }
-                Stand::Armed if d0 < 0.0 && d1 > 0.0 => {
-                    let lowest = g0 - 0.5 * d0 * d0 * h / (d1 - d0);
-                    if lowest < GRAZE * size {
-                        return Err("grazing");
-                    }
-                }
-                Stand::Idle if g1 > UNCLEAR * size => self.stands[at] = Stand::Armed,
-                // It did not get to the right side, or went there and came back within a tiny step.
-                Stand::Idle if g1 < -UNCLEAR * size && d1 <= 0.0 => return Err("turns back"),
-                _ => {}
+        for place in 0..self.stands.len() {
+            if let Some(time) = self.follow(place, &end, h)? {
+                found.push((time, place));
             }
         }
         found.sort_by(|a, b| a.0.total_cmp(&b.0));
         let Some(&(first, _)) = found.first() else {
-            self.v = end;
+            self.at.v = end;
             self.time += h;
             return Ok(false);
         };
-        let gaps = found.iter().map(|&(time, _)| time - first);
-        if gaps.clone().any(|gap| gap > AT_ONCE && gap < TOO_CLOSE) {
+        let mut gaps = found.iter().map(|&(time, _)| time - first);
+        if gaps.any(|gap| gap > AT_ONCE && gap < TOO_CLOSE) {
             return Err("two switches nearly at once");
         }
-        let due: Vec<usize> = found
-            .iter()
-            .filter(|f| f.0 - first <= AT_ONCE)
-            .map(|f| f.1)
-            .collect();
-        self.v = self.ahead(first);
+        self.at.v = self.ahead(first);
         self.time += first;
-        self.near_a_sample()?;
-        self.fire(&due);
+        let from_sample = self.time.min(self.case.period() - self.time);
+        if from_sample <= AT_ONCE {
+            self.exact_drive();
+        } else if from_sample < TOO_CLOSE {
+            return Err("nearly at a sample");
+        }
         Ok(true)
     }
 
-    /// Time from now to where a guard that is negative after `h` reaches zero.
-    fn bisect(&self, rule: &Rule, h: f64) -> f64 {
-        let (mut lo, mut hi) = (0.0, h);
-        while hi - lo > 1e-15 * h + 1e-16 {
-            let middle = 0.5 * (lo + hi);
-            if middle <= lo || middle >= hi {
-                break;
+    /// Where in a step to `end` a rule fires, if it does.
+    fn follow(&mut self, place: usize, end: &[f64], h: f64) -> Result<Option<f64>, Doubt> {
+        let (unit, index, rule) = self.case.rules(&self.at.modes)[place];
+        let rate = |v: &[f64]| rule.sign * rule.guard.rate(v, &self.rates(v));
+        let value = |v: &[f64]| rule.sign * rule.guard.value(v);
+        let [g0, g1] = [&self.at.v[..], end].map(value);
+        let [d0, d1] = [&self.at.v[..], end].map(rate);
+        let size = size(&rule.guard, &self.at.v) + SMALL;
+        match self.stands[place] {
+            Stand::Armed if g1 <= 0.0 => {
+                if d0.min(d1) > -GRAZE * size {
+                    return Err("grazing");
+                }
+                return Ok(Some(self.bisect(h, value)));
             }
-            if rule.sign * rule.guard.value(&self.ahead(middle)) > 0.0 {
+            Stand::Armed if d0 < 0.0 && d1 > 0.0 => {
+                let lowest = g0 - 0.5 * d0 * d0 * h / (d1 - d0);
+                if lowest < GRAZE * size {
+                    return Err("grazing");
+                }
+            }
+            Stand::Held if d0 > 0.0 && d1 <= 0.0 && !TURNS => return Err("turns (not compared)"),
+            Stand::Held if d0 > 0.0 && d1 <= 0.0 => {
+                if g1 > -GRAZE * size {
+                    return Err("grazing");
+                }
+                return Ok(Some(self.bisect(h, rate)));
+            }
+            Stand::Idle | Stand::Held if g1 > UNCLEAR * size => {
+                self.held.retain(|&held| held != (unit, index));
+                self.stands[place] = Stand::Armed;
+            }
+            // It left zero for its right side and came back within a tiny step.
+            Stand::Idle if g1 < -UNCLEAR * size => return Err("turns back"),
+            _ => {}
+        }
+        Ok(None)
+    }
+
+    /// Time from now to where something that is negative after `h` reaches zero.
+    fn bisect(&self, h: f64, value: impl Fn(&[f64]) -> f64) -> f64 {
+        let (mut lo, mut hi) = (0.0, h);
+        for _ in 0..55 {
+            let middle = 0.5 * (lo + hi);
+            if value(&self.ahead(middle)) > 0.0 {
                 lo = middle;
             } else {
                 hi = middle;
@@ -276,130 +428,91 @@ impl<'a> Stepper<'a> {
         hi
     }
 
-    fn near_a_sample(&self) -> Result<(), Doubt> {
-        let from_sample = self.time.min(self.case.period() - self.time);
-        let clear = !(AT_ONCE..TOO_CLOSE).contains(&from_sample);
-        clear.then_some(()).ok_or("nearly at a sample")
-    }
-
-    /// Carries out one of the rules due now, by their places among those in force.
-    fn fire(&mut self, due: &[usize]) {
-        self.out.tie |= due.len() > 1;
-        let rules = self.rules();
-        let chosen = if self.last_first {
-            due.iter().max()
-        } else {
-            due.iter().min()
-        };
-        let Some(&(unit, rule)) = chosen.map(|&at| &rules[at]) else {
-            return;
-        };
+    /// Carries out a rule, by its place among those in force.
+    fn fire(&mut self, place: usize) {
+        let (unit, _, rule) = self.case.rules(&self.at.modes)[place];
         self.out.switches.push(Switch {
-            time: self.out.samples.len() as f64 * self.case.period() + self.time,
+            time: self.total_time(),
             unit,
-            from: self.modes[unit],
+            from: self.at.modes[unit],
             to: rule.to,
         });
         self.recent += 1;
-        let values: Vec<f64> = rule
-            .resets
-            .iter()
-            .map(|(_, value)| value.value(&self.v))
-            .collect();
-        for ((state, _), value) in rule.resets.iter().zip(values) {
-            self.v[*state] = value;
-        }
-        self.modes[unit] = rule.to;
-        self.enter();
+        self.held.retain(|&(held, _)| held != unit);
+        self.case.carry_out((unit, rule), &mut self.at);
+        self.field = self.case.field(&self.at.modes);
     }
 
     /// Carries out what is due at this very instant, one after the other; false if that is too much.
     fn at_once(&mut self) -> Result<bool, Doubt> {
         loop {
             if self.recent > MOST {
-                let time = self.out.samples.len() as f64 * self.case.period() + self.time;
-                self.out.ending = Ending::Chattering(time);
+                self.out.ending = Ending::Chattering(self.total_time());
                 return Ok(false);
             }
             self.stand()?;
-            let due: Vec<usize> = (0..self.stands.len())
-                .filter(|&at| self.stands[at] == Stand::Due)
-                .collect();
-            if due.is_empty() {
-                return Ok(true);
+            if !TWO_AT_A_SAMPLE && self.two_at_a_sample() {
+                return Err("two units at a sample (not compared)");
             }
-            self.fire(&due);
+            let mut due = (0..self.stands.len()).filter(|&i| self.stands[i] == Stand::Due);
+            let (first, last) = (due.next(), due.next_back());
+            self.out.tie |= last.is_some();
+            match if self.last_first {
+                last.or(first)
+            } else {
+                first
+            } {
+                Some(place) => self.fire(place),
+                None => return Ok(true),
+            }
         }
     }
 
-    /// How each guard in force stands at this point, from the point alone.
+    /// Whether different units switch at the instant of a sample.
+    fn two_at_a_sample(&self) -> bool {
+        let now = self.total_time();
+        let latest = self.out.switches.iter().rev();
+        let mut units = latest
+            .take_while(|s| now - s.time <= AT_ONCE)
+            .map(|s| s.unit);
+        let first = units.next();
+        let from_sample = self.time.min(self.case.period() - self.time);
+        from_sample <= AT_ONCE && units.any(|unit| Some(unit) != first)
+    }
+
+    /// How each rule in force stands at this point.
     fn stand(&mut self) -> Result<(), Doubt> {
-        let (values, sizes) = self.series();
-        let stand = |rule: &Rule| -> Result<Stand, Doubt> {
-            let guard = of_series(&rule.guard, &values, |c| rule.sign * c);
-            let size = of_series(&rule.guard, &sizes, f64::abs);
-            for k in 0..ORDERS {
-                let part = guard[k] / size[k].max(f64::MIN_POSITIVE);
-                if part.abs() > UNCLEAR {
-                    return Ok(match (part > 0.0, k) {
-                        (true, 0) => Stand::Armed,
-                        (true, _) => Stand::Idle,
-                        (false, 0) => back(&guard, &size)?,
-                        (false, _) => Stand::Due,
-                    });
-                }
-                if part.abs() > ZERO {
-                    return Err("nearly zero");
-                }
+        let rules = self.case.rules(&self.at.modes);
+        self.stands.clear();
+        for (side, &(unit, index, rule)) in self.case.sides(&self.at)?.into_iter().zip(&rules) {
+            let held = self.held.contains(&(unit, index));
+            let stand = match (side.sign, side.zeros) {
+                (1.0, 0) => Stand::Armed,
+                (0.0 | 1.0, _) => Stand::Idle,
+                _ if !side.may_be_held() => Stand::Due,
+                _ if held => Stand::Held,
+                _ if self.case.settles(&self.at, (unit, rule))? => Stand::Due,
+                _ => Stand::Held,
+            };
+            if stand == Stand::Held && !held && !HELD_IN_CHAINS && self.time > 0.0 {
+                return Err("held within a chain (not compared)");
             }
-            Ok(Stand::Idle)
-        };
-        let stands: Result<Vec<_>, _> = self.rules().iter().map(|(_, rule)| stand(rule)).collect();
-        self.stands = stands?;
-        Ok(())
-    }
-
-    /// Taylor coefficients of all variables here, and sums of the absolute values of the terms in them.
-    fn series(&self) -> (Vec<[f64; ORDERS]>, Vec<[f64; ORDERS]>) {
-        let n = self.field.len();
-        let mut out = [Vec::new(), Vec::new()];
-        for (out, absolute) in out.iter_mut().zip([false, true]) {
-            let omega = self.case.omega;
-            let part = |c: f64| if absolute { c.abs() } else { c };
-            let first = |&v: &f64| std::array::from_fn(|k| if k == 0 { part(v) } else { 0.0 });
-            *out = self.v.iter().map(first).collect::<Vec<[f64; ORDERS]>>();
-            for k in 1..ORDERS {
-                let rate = |poly: &Poly| of_series(poly, out, part)[k - 1];
-                let mut next: Vec<f64> = self.field.iter().map(rate).collect();
-                next.extend([part(-omega) * out[n + 1][k - 1], omega * out[n][k - 1]]);
-                for (series, next) in out.iter_mut().zip(next) {
-                    series[k] = next / k as f64;
-                }
+            if stand == Stand::Held && !held {
+                self.held.push((unit, index));
             }
+            if stand == Stand::Armed {
+                self.held.retain(|&held| held != (unit, index));
+            }
+            self.stands.push(stand);
         }
-        let [values, sizes] = out;
-        (values, sizes)
+        Ok(())
     }
 }
 
 /// Sum of the absolute values of the terms.
 fn size(poly: &Poly, v: &[f64]) -> f64 {
-    let absolute: Vec<f64> = v.iter().map(|v| v.abs()).collect();
-    Poly(poly.0.iter().map(|(c, f)| (c.abs(), f.clone())).collect()).value(&absolute)
-}
-
-/// A guard on its wrong side: it is due unless its rate leads back.
-fn back(guard: &[f64; ORDERS], size: &[f64; ORDERS]) -> Result<Stand, Doubt> {
-    for k in 1..ORDERS {
-        let part = guard[k] / size[k].max(f64::MIN_POSITIVE);
-        if part.abs() > UNCLEAR {
-            return Ok(if part > 0.0 { Stand::Idle } else { Stand::Due });
-        }
-        if part.abs() > ZERO {
-            return Err("nearly zero");
-        }
-    }
-    Err("rests on its wrong side")
+    let term = |(c, factors): &(f64, Vec<usize>)| factors.iter().fold(*c, |p, &i| p * v[i]).abs();
+    poly.0.iter().map(term).sum()
 }
 
 /// A polynomial of series, its coefficients passed through `part`.
