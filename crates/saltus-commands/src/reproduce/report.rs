@@ -82,7 +82,7 @@ pub(super) struct RegimeRow {
 }
 
 /// What `--quick` says of itself.
-pub(super) const QUICK: &str = "A quick look (--quick): coarse grids, short runs, doublings up to 16T. It may miss \
+pub(super) const QUICK: &str = "A quick look (--quick): coarse grids, short runs, doublings up to 8T. It may miss \
                                 what is narrower than its step; without --quick everything is finer.";
 
 /// Symbols for the names that plain text gives them.

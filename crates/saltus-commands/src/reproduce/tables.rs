@@ -19,7 +19,7 @@ pub(super) fn write(
     results: &Results,
     report: &Report,
 ) -> Result<(), Failure> {
-    regimes(folder, report)?;
+    regimes(folder, results, report)?;
     sweeps(folder, results)?;
     fig2(folder, results)?;
     fig3(folder, results)?;
@@ -27,7 +27,12 @@ pub(super) fn write(
 }
 
 /// Where which cycle is stable, under every law and both readings.
-fn regimes(folder: &mut dyn Store, report: &Report) -> Result<(), Failure> {
+fn regimes(folder: &mut dyn Store, results: &Results, report: &Report) -> Result<(), Failure> {
+    let longest = results.effort.cascade_period;
+    let meaning = format!(
+        "damping ratios between which the cycle of that period is stable: all its multipliers lie inside the unit \
+         circle; doublings up to {longest}T of reaction-force, occupied, and up to 8T of the others"
+    );
     let rows = report.regimes.iter().map(|r| {
         vec![
             r.law.into(),
@@ -43,11 +48,7 @@ fn regimes(folder: &mut dyn Store, report: &Report) -> Result<(), Failure> {
     });
     folder.table(
         "regimes.csv",
-        &[(
-            "from, to",
-            "damping ratios between which the cycle of that period is stable: all its multipliers lie inside the \
-             unit circle",
-        )],
+        &[("from, to", meaning.as_str())],
         &header(&[
             "law",
             "reference",

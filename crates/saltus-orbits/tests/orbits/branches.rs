@@ -5,7 +5,7 @@ use crate::maps::{
 };
 use proptest::prelude::*;
 use saltus_orbits::{
-    Along, Branch, BranchesOptions, ContinuationError, ContinuationOptions, End, Family,
+    Along, Branch, BranchesOptions, ContinuationError, ContinuationOptions, End, Family, Limb,
     NewtonOptions, Orbit, Place, Special, SpecialKind, branches, find_orbit, follow, follow_both,
 };
 use std::f64::consts::{FRAC_PI_3, PI};

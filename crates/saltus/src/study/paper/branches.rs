@@ -30,6 +30,10 @@ const START: f64 = 0.45;
 /// Points with unstable orbits that end a branch which is followed for its stable part.
 const BEYOND: usize = 3;
 
+/// Under the other laws and the other reading, where only long stretches are told: longest period of a cycle whose
+/// doubling is sought, and of a motion whose cycle is.
+const OTHERS: [usize; 2] = [8, 16];
+
 /// Doublings in a row: more than the longest period allows.
 const DOUBLINGS: usize = 16;
 
@@ -274,7 +278,8 @@ impl Panel<'_> {
             let beside = |(period, zeta): (usize, f64)| {
                 period == seed.period && (zeta - seed.zeta).abs() <= 1.5 * self.step()
             };
-            if known.stretches.iter().any(on) || failed.is_some_and(beside) {
+            let too_long = !self.is_papers() && seed.period > OTHERS[1];
+            if too_long || known.stretches.iter().any(on) || failed.is_some_and(beside) {
                 continue;
             }
             match self.cycle(family, &seed)? {
@@ -317,18 +322,25 @@ impl Panel<'_> {
         orbit: &Orbit,
         known: &mut Known,
     ) -> Result<(), StudyError> {
+        let (papers, main) = (self.is_papers(), known.limbs.is_empty());
         // Islands are small, and their cascades too.
-        let entire = match (self.is_papers(), known.limbs.is_empty()) {
+        let entire = match (papers, main) {
             (true, true) => Some(self.effort.doublings),
             (true, false) if orbit.period() <= self.effort.islands => {
                 Some(self.effort.doublings.min(1))
             }
             _ => None,
         };
+        let longest = self.effort.cascade_period;
         let options = BranchesOptions {
             doublings: DOUBLINGS,
             entire: entire.unwrap_or(0),
-            longest: self.effort.cascade_period,
+            longest: if papers {
+                longest
+            } else {
+                longest.min(OTHERS[0])
+            },
+            crossings: papers || main,
             closest: CLOSEST,
             branches: 100,
             continuation: ContinuationOptions {
@@ -336,7 +348,6 @@ impl Panel<'_> {
                 unstable: entire.map_or(BEYOND, |_| usize::MAX),
                 ..ContinuationOptions::default()
             },
-            ..BranchesOptions::default()
         };
         let mut go_on = |_: &Point| self.stopped().is_ok();
         let limbs = branches(family, orbit, &ALONG, &options, &mut go_on);

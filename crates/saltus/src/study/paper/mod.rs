@@ -101,7 +101,7 @@ impl Effort {
             patience: 500,
             doublings: 1,
             islands: 0,
-            cascade_period: 16,
+            cascade_period: 8,
         }
     }
 }
