@@ -290,6 +290,8 @@ fn a_full_disk_ends_with_3() {
             .unwrap();
         let output = Process::new(program())
             .args(args)
+            // where an answer is kept that has no other place
+            .env("TMPDIR", desk.folder.path())
             .stdout(full)
             .stderr(Stdio::piped())
             .output()
