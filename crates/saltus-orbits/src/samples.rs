@@ -414,7 +414,7 @@ mod tests {
     /// and `new`.
     fn steps(old: f64, new: f64) -> Samples {
         let width = |k: usize| if k < 23 { old } else { new };
-        samples(40, |k| f64::from(k as usize % 2 == 0) * width(k as usize))
+        samples(40, |k| (1.0 - k % 2.0) * width(k as usize))
     }
 
     #[test]

@@ -12,6 +12,8 @@
 //! A chaotic pixel says over how many periods it was seen so. Where the judge finds a cycle in the end, the four motions
 //! are run for just as many periods: if one of them is on no cycle by then, such a transient outlasts what the map saw.
 
+#![allow(clippy::print_stdout)]
+
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::fmt;

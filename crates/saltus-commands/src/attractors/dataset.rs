@@ -44,7 +44,7 @@ fn transients(set: Dataset, run: &Run, report: &Report) -> Dataset {
         let name = format!("transient_{}", name(parameter));
         set = set.variable(values(name, &over, parameter, at.collect()));
     }
-    let counts: [Quantity<fn(&Passing) -> u64>; 4] = [
+    let counts: [Quantity<Count>; 4] = [
         (
             "transient_starts",
             |one| one.drawn.starts,
@@ -105,6 +105,7 @@ type Quantity<F> = (&'static str, F, (&'static str, &'static str));
 type Number = fn(&Attractor) -> f64;
 type Bodies = fn(&Attractor) -> &PerJumper<f64>;
 type Rest = fn(&Row) -> Share;
+type Count = fn(&Passing) -> u64;
 
 const NUMBERS: [Quantity<Number>; 8] = [
     (

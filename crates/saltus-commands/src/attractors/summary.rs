@@ -1,6 +1,7 @@
 //! What `saltus attractors` says to people.
 
 use super::Run;
+use super::evidence::Passing;
 use super::report::{Attractor, End, Loop, Report, Row, Share, name};
 use std::fmt::Write;
 
@@ -18,10 +19,7 @@ pub(super) fn text(run: &Run, report: &Report) -> String {
             let rows = || report.rows.iter();
             let all = rows().flat_map(|row| &row.attractors).map(in_words);
             let passing = rows().flat_map(|row| &row.transients);
-            vec![
-                all.collect(),
-                passing.map(|transient| transient.in_words()).collect(),
-            ]
+            vec![all.collect(), passing.map(Passing::in_words).collect()]
         }
         Some(parameter) => {
             let values = run.found.rows.iter().map(|row| short(row.value));

@@ -460,7 +460,8 @@ where
                     let (attractor, section) = motion.as_it_looks(&recording, Kind::Undecided);
                     self.found = Some(motion.found(attractor, Arrival { point, section }));
                 }
-                Conclusion::Is(attractor, arrival) => {
+                Conclusion::Is(seen) => {
+                    let (attractor, arrival) = *seen;
                     self.found = Some(motion.found(attractor, arrival));
                 }
             }
@@ -481,7 +482,7 @@ where
 
 /// What is to be said of a motion, or to be done with it.
 enum Conclusion {
-    Is(Attractor, Arrival),
+    Is(Box<(Attractor, Arrival)>),
     /// It is on its way, and should be run on from here.
     GoOn(Point),
 }
@@ -513,14 +514,14 @@ impl Motion {
                 point: end.clone(),
                 section,
             };
-            Conclusion::Is(Attractor { rest, ..attractor }, arrival)
+            Conclusion::Is(Box::new((Attractor { rest, ..attractor }, arrival)))
         };
         if let Some(on) = on.filter(|on| on.is_sure() && !search.confirm) {
             return looks(self, Kind::Periodic(on.period), on.rest);
         }
         match confirm::cycle(&self.model, end, &self.samples, control) {
             Near::Stable(orbit) => match around(&self.model, &orbit, control) {
-                Some((attractor, arrival)) => Conclusion::Is(attractor, arrival),
+                Some(cycle) => Conclusion::Is(Box::new(cycle)),
                 None => Conclusion::GoOn(end.clone()),
             },
             Near::Unstable(orbit) => {
