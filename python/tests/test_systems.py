@@ -497,6 +497,41 @@ class TestQuestions:
         assert found.exponents.sum(axis=1) == pytest.approx(-0.05, abs=1e-9)
         assert (np.abs(found.dimension - 1.674) < 5 * found.dimension_error).all()
 
+    def test_stiff_directions_have_their_exponents(self) -> None:
+        x, y = states("x", "y")
+        system = System([x, y], [-50.0 * x, -y], interval=1.0)
+        found = lyapunov(system, [1.0, 1.0], 100)
+        exact = np.array([-1.0, -50.0])
+        # tolerance 1e-10 per step
+        assert found.exponents == pytest.approx(exact, abs=1e-6)
+        assert (found.intervals[:, 0] <= exact).all()
+        assert (found.intervals[:, 1] >= exact).all()
+        assert (found.standard_errors < 1e-5).all()
+
+    def test_exponents_of_a_cycle_are_those_of_its_multipliers(self) -> None:
+        x, v = states("x", "v")
+        forcing = Forcing(0.9)
+        system = System([x, v], [v, forcing.sin - 0.2 * v - x], forcing=forcing)
+        found = lyapunov(system, [0.3, 0.0], 77, transient=100)
+        assert found.on_cycle
+        # both of the complex pair decay by half of the damping
+        assert found.exponents == pytest.approx(np.array([-0.1, -0.1]), abs=1e-10)
+
+    def test_an_orbit_has_what_is_kept_from_the_start(self) -> None:
+        # the pendulum with sine and cosine as states keeps s^2 + c^2; the multipliers beside 1 are those
+        # of the pendulum in its angle
+        s, c, w = states("s", "c", "w")
+        forcing = Forcing(2 / 3)
+        rates = [c * w, -s * w, -s - 0.5 * w + 1.07 * forcing.cos]
+        system = System([s, c, w], rates, forcing=forcing)
+        with pytest.warns(UserWarning, match="one of a family"):
+            orbit = find_orbit(system, [0.0, 1.0, 1.9])
+        assert np.hypot(*orbit.states[0, :2]) == pytest.approx(1.0, abs=1e-9)
+        assert orbit.states[0, 2] == pytest.approx(1.95620844, abs=1e-8)
+        assert (orbit.stability, orbit.stable, orbit.in_family) == ("unstable", False, True)
+        expected = [-1.12962897, 1.0, -0.00795243]
+        assert orbit.multipliers.real == pytest.approx(expected, abs=1e-8)
+
     def test_fewer_exponents_are_the_largest(self, duffing: System) -> None:
         values = {"f": 0.3, "omega": 1.0}
         both = lyapunov(duffing, [0.1, 0.0], 50, parameters=values)

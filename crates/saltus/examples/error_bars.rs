@@ -9,6 +9,8 @@
 //! cargo run --release -p saltus --example error_bars
 //! ```
 
+#![allow(clippy::print_stdout)]
+
 use saltus::model::Setup;
 use saltus::orbits::Exponent;
 use saltus::study::{Control, Measurement, StudyError, growth, lyapunov, settle};

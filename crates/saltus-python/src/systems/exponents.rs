@@ -95,11 +95,13 @@ pub(crate) fn run(
             let cycle = asked.then(|| settled(&map, parameters, &here)).flatten();
             (periods[index], climbed, cycle)
         };
-        Ok(climbed
-            .into_iter()
-            .enumerate()
-            .map(told)
-            .collect::<Vec<_>>())
+        Ok::<_, PyErr>(
+            climbed
+                .into_iter()
+                .enumerate()
+                .map(told)
+                .collect::<Vec<_>>(),
+        )
     });
     let (mut exponents, mut errors, mut intervals) = (Vec::new(), Vec::new(), Vec::new());
     let (mut dimension, mut dimension_error) = (Vec::new(), Vec::new());
