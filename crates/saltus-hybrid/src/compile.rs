@@ -103,8 +103,8 @@ pub(crate) struct Watch {
     pub(crate) resets: Vec<(usize, usize)>,
     /// Guards that are zero after it by construction.
     pub(crate) vanishing: Vec<(usize, u8)>,
-    /// Whether it may move its own guard, by a reset or by the change of mode.
-    pub(crate) moves: bool,
+    /// Guards that it may move, by a reset or by the change of mode.
+    pub(crate) moved: Vec<usize>,
 }
 
 impl Watch {
@@ -200,21 +200,18 @@ impl Structure {
             let node = node.ok_or(BuildError::NoDerivative(i))?;
             out.derivative.push(flat.index(node)?);
         }
-        for (unit, modes) in parts.units.iter().enumerate() {
+        for modes in parts.units {
             let mut resolved = Vec::new();
-            let switches = |coefficients: std::ops::RangeInclusive<usize>| {
-                let mut switched = parts.switched.iter();
-                switched.any(|&(at, by, _)| by == unit && coefficients.contains(&at))
-            };
             for transitions in modes {
                 let watches: Result<Vec<_>, _> = transitions
                     .iter()
-                    .map(|t| out.resolve(&flat, t, modes.len(), switches))
+                    .map(|t| out.resolve(&flat, t, modes.len()))
                     .collect();
                 resolved.push(watches?);
             }
             out.units.push(resolved);
         }
+        out.say_what_moves(&flat, parts.switched);
         let slots = Slots::new(&flat, &out.guards, &out.derivative);
         out.slots = slots.count;
         out.guard_slots = out.guards.iter().map(|&g| slots.first(g)).collect();
@@ -235,6 +232,31 @@ impl Structure {
             .map(|node| (node as u32, slots.of[node][0]))
             .collect();
         Ok(out)
+    }
+
+    /// Tells each transition the guards it may move. `switched` are coefficients that depend on modes, with their
+    /// unit.
+    fn say_what_moves(&mut self, flat: &Flattener, switched: &[(usize, usize, Vec<f64>)]) {
+        for (guard, &node) in self.guards.iter().enumerate() {
+            let made_of = flat.made_of(node);
+            for (unit, modes) in self.units.iter_mut().enumerate() {
+                let moves = |watch: &Watch| match &made_of {
+                    None => true,
+                    Some((states, sums)) => {
+                        watch.resets.iter().any(|(to, _)| states.contains(to))
+                            || sums.iter().any(|sum| {
+                                let mut own = switched.iter().filter(|(_, by, _)| *by == unit);
+                                own.any(|(at, ..)| sum.contains(at))
+                            })
+                    }
+                };
+                for watch in modes.iter_mut().flatten() {
+                    if moves(watch) {
+                        watch.moved.push(guard);
+                    }
+                }
+            }
+        }
     }
 
     /// Order of the series that values are computed with: 0 unless derivatives are needed for them.
@@ -261,7 +283,6 @@ impl Structure {
         flat: &Flattener,
         t: &Transition,
         modes: usize,
-        switches: impl Fn(std::ops::RangeInclusive<usize>) -> bool,
     ) -> Result<Watch, BuildError> {
         if t.to >= modes {
             return Err(BuildError::Undefined(format!("mode {}", t.to)));
@@ -275,12 +296,11 @@ impl Structure {
         for &(state, value) in &t.resets {
             resets.push((flat.index(Node::State(state))?, flat.index(value)?));
         }
-        let reset = |state| resets.iter().any(|&(to, _)| to == state);
         Ok(Watch {
             guard,
             sign: t.sign,
             to: t.to,
-            moves: flat.depends(self.guards[guard], reset, switches),
+            moved: Vec::new(),
             resets,
             vanishing,
         })

@@ -343,17 +343,22 @@ impl Guarded {
         }
     }
 
-    /// Carries out a switch of the modes, and remembers which guards are zero now: those that are by
-    /// construction, and its own if neither a reset nor the change of mode moves it.
+    /// Carries out a switch of the modes, and remembers which guards are zero now: those that are by construction,
+    /// and its own and others that were, if neither a reset nor the change of mode moves them. Their derivatives
+    /// may be others.
     pub(crate) fn fire(&mut self, structure: &Structure, firing: &Firing) {
         let unit = firing.unit;
         let watch = self.watch(structure, firing);
-        self.zero.fill(0);
-        if firing.cause == Cause::Crossing {
-            self.zero[watch.guard] = u8::from(!watch.moves);
-            for &(guard, multiplicity) in &watch.vanishing {
-                self.zero[guard] = multiplicity;
-            }
+        let crosses = firing.cause == Cause::Crossing;
+        if crosses {
+            self.zero[watch.guard] = 1;
+        }
+        self.zero.iter_mut().for_each(|zero| *zero = (*zero).min(1));
+        for &guard in &watch.moved {
+            self.zero[guard] = 0;
+        }
+        for &(guard, multiplicity) in watch.vanishing.iter().filter(|_| crosses) {
+            self.zero[guard] = multiplicity;
         }
         self.held.retain(|&(held, _)| held != unit);
         self.modes[unit] = watch.to;

@@ -249,24 +249,25 @@ impl Flattener {
         self.cone(guards).0
     }
 
-    /// Whether a node may change when a unit switches: it depends on one of these states or coefficients.
-    pub(crate) fn depends(
+    /// Of what a node is made: states, and the ranges of coefficients of its sums; `None` if of everything.
+    pub(crate) fn made_of(
         &self,
         node: usize,
-        states: impl Fn(usize) -> bool,
-        coefficients: impl Fn(std::ops::RangeInclusive<usize>) -> bool,
-    ) -> bool {
+    ) -> Option<(Vec<usize>, Vec<std::ops::RangeInclusive<usize>>)> {
         let (needed, nodes) = self.cone(&[node]);
-        let mut ops = needed.iter().zip(&self.ops).filter(|(needed, _)| **needed);
-        (0..self.states).any(|state| nodes[state] && states(state))
-            || ops.any(|(_, op)| match &op.kind {
+        let mut coefficients = Vec::new();
+        for (_, op) in needed.iter().zip(&self.ops).filter(|(needed, _)| **needed) {
+            match &op.kind {
                 Kind::Linear { constant, terms } => {
-                    coefficients(*constant..=constant + terms.len())
+                    coefficients.push(*constant..=constant + terms.len());
                 }
-                // It depends on derivatives, so on everything.
-                Kind::Adiabatic { .. } => true,
-                _ => false,
-            })
+                // It depends on derivatives.
+                Kind::Adiabatic { .. } => return None,
+                _ => {}
+            }
+        }
+        let states = (0..self.states).filter(|&state| nodes[state]).collect();
+        Some((states, coefficients))
     }
 
     /// Operations and nodes that these nodes depend on.

@@ -44,7 +44,7 @@ impl Method {
     /// some steps, and no more than a clear distance.
     pub(crate) fn error(self) -> f64 {
         match self {
-            Self::Taylor { tolerance, .. } => (100.0 * tolerance).clamp(1e-12, 1e-2),
+            Self::Taylor { tolerance, .. } => (1000.0 * tolerance).clamp(1e-10, 1e-2),
             Self::Rk4 { .. } => 1e-9,
         }
     }

@@ -39,13 +39,15 @@ pub(crate) fn cross(
     let base = &tangents.base;
     let guard = base.guards[watch.guard];
     let (state, columns) = x.split_at_mut(tangents.first);
+    // Without states of its own a system has no columns.
+    let size = tangents.size.max(1);
     let field = |nodes: &[f64]| -> Vec<f64> { base.derivative.iter().map(|&i| nodes[i]).collect() };
     let of_resets =
         |nodes: &[f64]| -> Vec<f64> { watch.resets.iter().map(|&(_, i)| nodes[i]).collect() };
 
-    later.resize(columns.len() / tangents.size.max(1), 0.0);
+    later.resize(columns.len() / size, 0.0);
     if firing.cause == Cause::Turning {
-        let all = columns.chunks_exact(tangents.size);
+        let all = columns.chunks_exact(size);
         turn(evaluator, guard, modes, state, all, later, field);
     }
     let nodes = evaluator.nodes(modes, state);
@@ -54,7 +56,7 @@ pub(crate) fn cross(
     let (guard_rate, reset_rates) = (rates[guard], of_resets(rates));
     let mut direction = vec![0.0; base.states];
     let mut reset_slopes: Vec<Vec<f64>> = Vec::with_capacity(later.len());
-    for (column, later) in columns.chunks_exact(tangents.size).zip(later.iter_mut()) {
+    for (column, later) in columns.chunks_exact(size).zip(later.iter_mut()) {
         direction[..tangents.size].copy_from_slice(column);
         let along = evaluator.along(&direction);
         if firing.cause == Cause::Crossing {
@@ -75,14 +77,14 @@ pub(crate) fn cross(
     for (&(to, _), rate) in watch.resets.iter().zip(&reset_rates) {
         jump[to] = rate - after[to];
     }
-    let size = before
+    let largest = before
         .iter()
         .chain(&after)
         .fold(0.0, |m: f64, f| m.max(f.abs()));
     let jumps = jump[..tangents.size]
         .iter()
-        .any(|j| j.abs() > NO_JUMP * size);
-    let columns = columns.chunks_exact_mut(tangents.size);
+        .any(|j| j.abs() > NO_JUMP * largest);
+    let columns = columns.chunks_exact_mut(size);
     for ((column, reset_slopes), &later) in columns.zip(reset_slopes).zip(later.iter()) {
         for (&(to, _), slope) in watch.resets.iter().zip(reset_slopes) {
             if let Some(d) = column.get_mut(to) {

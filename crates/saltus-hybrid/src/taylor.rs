@@ -35,6 +35,9 @@ pub(crate) fn run<T: Task>(
     Ok(())
 }
 
+/// A step that is shorter than this part of a period does not tell which guards are near zero at its end.
+const SHORT: f64 = 1e-6;
+
 /// What a lane does in the coming step, if that is more than to go on.
 #[derive(Clone, Copy, Default)]
 struct Plan {
@@ -249,7 +252,9 @@ impl<T: Task> Ensemble<T> {
         let length = kernel.lengths.0[slot];
         let arrival = if length < kernel.left.0[slot] {
             Arrival::No
-        } else if kernel.is_clear(slot, lane.guarded.watches(&kernel.structure)) {
+        } else if length > SHORT * lane.system.period
+            && kernel.is_clear(slot, lane.guarded.watches(&kernel.structure))
+        {
             Arrival::Clear
         } else {
             Arrival::WithGuardsNearZero

@@ -27,7 +27,7 @@ const ALL: Kinds = Kinds {
     lasting: true,
     // The series of a product of states is cut where the states' own are: its root is beside that of the states at it by
     // the tolerance, and now and then such a guard fires once more, 1e-12 later.
-    curved_guards: false,
+    curved_guards: true,
 };
 
 /// Cases in a run: unoptimised code is a hundred times slower.

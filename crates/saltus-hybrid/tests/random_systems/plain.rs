@@ -33,11 +33,11 @@ const LARGE: f64 = 30.0;
 const TURNS: bool = false;
 /// Whether to compare cases in which a chain of switches at one instant is found to lead nowhere: the engine forgets
 /// within it that the guard it began with is zero.
-const HELD_IN_CHAINS: bool = false;
+const HELD_IN_CHAINS: bool = true;
 
 /// Whether to compare cases in which two units switch at the instant of a sample: where one of them is found an ulp
 /// before it, the engine takes the sample before the other.
-const TWO_AT_A_SAMPLE: bool = false;
+const TWO_AT_A_SAMPLE: bool = true;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Switch {
