@@ -115,8 +115,8 @@ JSON (--json, and map.json in --out):
   x, y               parameter, unit, label, from, to, count
   pixels, status     how many pixels of each status
   periods            period, pixels and share of each period that occurs
-  chaotic_over       min and max of chaotic_periods over the chaotic pixels; null
-                     if there are none
+  chaotic_over       min and max of chaotic_periods over the chaotic pixels;
+                     null if there are none
   contact_ratio, peak_reaction, peak_acceleration
                      min and max over the map; a list for several jumpers
   periods_run        forcing periods computed in all
