@@ -281,8 +281,9 @@ The motion from [start] is run for lyapunov.transient forcing periods. From
 there on lyapunov.replicas pieces of it, one after the other and each
 lyapunov.periods long, are run side by side with the tangent flow; a switch
 multiplies that by its saltation matrix. Columns that part by more than rounding
-allows within a period are kept apart as often as it takes. An exponent is the mean growth of a small deviation, natural logarithm,
-per forcing period. The drive keeps its phase: its exponent, 0, is not counted.
+allows within a period are kept apart as often as it takes. An exponent is the
+mean growth of a small deviation, natural logarithm, per forcing period. The
+drive keeps its phase: its exponent, 0, is not counted.
 All exponents of plate.inertia = \"full\" take hours where those of \"condensed\"
 take seconds; lyapunov.exponents = 1 asks for the largest alone.
 

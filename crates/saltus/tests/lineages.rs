@@ -321,12 +321,19 @@ fn odd_questions_have_answers() {
     let refused = census(&empty, &starts(4), &search, &control(0));
     assert_eq!(refused, Err(StudyError::NobodyMoves));
     let model = model(0.3, 0.9).expect("valid");
-    for z in [[f64::NEG_INFINITY, 1.0], [f64::NAN, 1.0], [0.0, 1e300]] {
+    for z in [[f64::NEG_INFINITY, 1.0], [f64::NAN, 1.0]] {
         let wild = Starts { z, ..starts(4) };
         let found = census(&model, &wild, &search, &control(0)).expect("runs");
         assert_eq!(found.lost.count, 4, "{z:?}");
         assert!(found.attractors.is_empty() && found.first_lost.is_some());
     }
+    // a body that falls for longer than anybody waits
+    let far = Starts {
+        z: [1e299, 1e300],
+        ..starts(4)
+    };
+    let found = census(&model, &far, &search, &control(0)).expect("runs");
+    assert_eq!(without(&found), 4);
     let none = census(&model, &starts(0), &search, &control(0)).expect("runs");
     assert_eq!(none, Census::default());
     assert!(followed(&[], 0.9, 4, 0).rows.is_empty());
