@@ -72,8 +72,7 @@ fn refused() -> Vec<(&'static str, Value, &'static str)> {
         (
             "/sweep/record",
             json!(u64::MAX),
-            "sweep.record = 18446744073709552000.0: a number with a decimal point was given, a whole number from \
-             1 to 1e7 is needed",
+            "sweep.record = 18446744073709552000.0: a whole number from 1 to 1e7 is needed",
         ),
         (
             "/jumper/0/x",

@@ -333,13 +333,13 @@ impl Kernel {
         let due = (0..LANES).filter(|&slot| self.sizes.is_due(slot) && self.is_finite(slot));
         for slot in due.collect::<Vec<_>>() {
             let controlled = &self.structure.state_slots[..self.structure.controlled];
-            let series = |&state: &usize| self.power(slot, state).map(f64::abs).collect();
+            let series = |&state: &usize| self.power(slot, state).collect();
             let series: Vec<Vec<f64>> = controlled.iter().map(series).collect();
             let (longest, tolerance) = (self.left.0[slot], self.tolerance);
             self.sizes.measure(slot, longest, tolerance, &series);
             for (k, tail) in [self.order, self.order - 1].into_iter().zip(&mut self.tail) {
                 let terms = series.iter().zip(&self.sizes.of);
-                let terms = terms.map(|(series, size)| series[k] * size.inverse.0[slot]);
+                let terms = terms.map(|(series, size)| series[k].abs() * size.inverse.0[slot]);
                 tail.0[slot] = terms.fold(0.0, f64::max);
             }
         }

@@ -1,17 +1,17 @@
 //! How large the states of each lane are: what the error of a step is relative to.
 //!
-//! A state is as large as it has been in this period, to a factor of [`OUTGROWN`], at least as large as its scale
-//! ([`SystemBuilder::scale`](crate::SystemBuilder::scale)), and forgets what it was before by a factor of
-//! [`FORGETS`] a period. Until it has been anything, at the start of a leg and after a switch, it is as large as
-//! the largest term of its series in the coming step.
+//! A state is as large as it has been in this period, to a factor of [`OUTGROWN`], and at least as large as its scale
+//! ([`SystemBuilder::scale`](crate::SystemBuilder::scale)). Where it has none it is measured at the start of a period,
+//! and after a switch if it has been zero: it is as large as it becomes in the coming step. Nothing is kept from one
+//! period to the next, so a run that goes on is the same as one that was not interrupted.
 
 use crate::arith::{LANES, Pack};
 
 /// Growth beyond its size after which a state is measured again.
 const OUTGROWN: f64 = 2.0;
 
-/// A state that happens to pass zero within a short period has not become small.
-const FORGETS: f64 = 16.0;
+/// Places in a step at which the series of a state is looked at.
+const PLACES: u32 = 4;
 
 /// Of one state, in all lanes.
 #[derive(Clone, Copy, Default)]
@@ -55,11 +55,12 @@ impl Sizes {
         self.unknown[lane] |= self.of.iter().any(|size| size.inverse.0[lane] == 0.0);
     }
 
-    /// A period ends at the state `x`.
-    pub(crate) fn period_ends(&mut self, lane: usize, x: &[f64]) {
+    /// A period begins at the state `x`.
+    pub(crate) fn period_begins(&mut self, lane: usize, x: &[f64]) {
         for (size, x) in self.of.iter_mut().zip(x) {
-            let known = x.abs().max(size.size.0[lane] / FORGETS);
-            size.set(lane, known.max(size.scale.0[lane]));
+            let scale = size.scale.0[lane];
+            size.set(lane, if scale > 0.0 { scale.max(x.abs()) } else { 0.0 });
+            self.unknown[lane] |= scale == 0.0;
         }
     }
 
@@ -80,7 +81,7 @@ impl Sizes {
         self.unknown[lane] || self.growth.0[lane] > OUTGROWN
     }
 
-    /// Measures the states of a lane by the absolute values of their series, for a step of at most `longest`.
+    /// Measures the states of a lane by their series, for a step of at most `longest`.
     pub(crate) fn measure(
         &mut self,
         lane: usize,
@@ -96,11 +97,13 @@ impl Sizes {
             length.min(longest_step(series, tolerance))
         });
         for (size, series) in self.of.iter_mut().zip(series) {
-            let mut known = series[0].max(size.size.0[lane]);
+            let mut known = series[0].abs().max(size.size.0[lane]);
             if unknown(size) {
-                let power = |k: usize| length.powi(k as i32);
-                let terms = series.iter().enumerate().map(|(k, a)| a * power(k));
-                known = terms.fold(known, f64::max);
+                let at = |place: u32| {
+                    let x = length * f64::from(place) / f64::from(PLACES);
+                    series.iter().rev().fold(0.0, |sum, a| sum * x + a)
+                };
+                known = (1..=PLACES).map(at).fold(known, |m, x| m.max(x.abs()));
             }
             size.set(lane, known);
         }
@@ -114,16 +117,25 @@ impl Size {
     }
 }
 
-/// Longest step after which the last two terms of a series are below the tolerance, relative to its largest.
+/// Longest step after which the last two terms of a series are below the tolerance, relative to its first two.
 fn longest_step(series: &[f64], tolerance: f64) -> f64 {
     let p = series.len() - 1;
+    let Some(first) = series.iter().position(|&a| a != 0.0) else {
+        return f64::INFINITY;
+    };
     let by = |last: usize| {
         let allowed = |k: usize| {
-            let ratio = tolerance * series[k] / series[last];
+            let ratio = tolerance * (series[k] / series[last]).abs();
             ratio.powf(1.0 / (last - k) as f64)
         };
-        let most = (0..p - 1).map(allowed).fold(0.0, f64::max);
-        if most > 0.0 { most } else { f64::INFINITY }
+        (first..=first + 1)
+            .filter(|&k| k < last)
+            .map(allowed)
+            .fold(0.0, f64::max)
     };
-    by(p).min(by(p - 1))
+    let [last, before] = [p, p - 1].map(|last| match by(last) {
+        most if most > 0.0 => most,
+        _ => f64::INFINITY,
+    });
+    last.min(before)
 }

@@ -264,7 +264,7 @@ impl<T: Task> Ensemble<T> {
         let next = lane.accept(options, length, plan.firing, arrival, &mut self.x, sizes);
         kernel.set_state(slot, &self.x);
         if lane.period > period {
-            kernel.sizes().period_ends(slot, &self.x);
+            kernel.sizes().period_begins(slot, &self.x);
         }
         if lane.switches() > switches {
             kernel.set_modes(slot, &lane.system, &lane.guarded.modes);

@@ -179,23 +179,6 @@ fn a_killed_run_leaves_nothing_that_counts() {
 }
 
 #[test]
-fn a_second_opener_is_refused_until_the_first_is_gone() {
-    let home = tempfile::tempdir().unwrap();
-    let store = PieceStore::open(home.path(), &WORK).unwrap();
-    let error = PieceStore::open(home.path(), &WORK).unwrap_err();
-    assert!(matches!(error, ResultsError::PiecesInUse { .. }), "{error}");
-    #[cfg(unix)]
-    assert!(
-        error
-            .to_string()
-            .contains(&format!("(process {})", std::process::id())),
-        "{error}"
-    );
-    drop(store);
-    PieceStore::open(home.path(), &WORK).unwrap();
-}
-
-#[test]
 fn threads_share_a_store() {
     let home = tempfile::tempdir().unwrap();
     let store = PieceStore::open(home.path(), &WORK).unwrap();

@@ -272,7 +272,8 @@ fn a_cascade_for_its_stable_parts_has_the_same_doublings_and_stops_where_it_is_t
     let map = logistic();
     let start = orbit(&map, &[2.5], &[&[0.6]]);
     let of = |options: &BranchesOptions| {
-        let all = branches(&map, &start, &along(0, 2.0, 3.6), options, &mut |_| true).unwrap();
+        // far enough for branches to be unstable for longer than they are followed
+        let all = branches(&map, &start, &along(0, 2.0, 3.9), options, &mut |_| true).unwrap();
         let doubling = |limb: &Limb| {
             let mut all = limb.branch.specials.iter();
             Some(
