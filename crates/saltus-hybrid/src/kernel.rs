@@ -100,7 +100,7 @@ impl Kernel {
         self.series.cells(nodes).for_each(|c| c.0[slot] = 0.0);
         self.left.0[slot] = 0.0;
         self.wary[slot] = false;
-        self.sizes.begin(slot, &[]);
+        self.sizes.begin(slot, &[], false);
         for guard in &mut self.guards {
             guard.floor.0[slot] = f64::NEG_INFINITY;
             guard.ceiling.0[slot] = f64::INFINITY;
@@ -147,7 +147,7 @@ impl Kernel {
     /// Begins a leg at the state `x`: sizes of its states are not known yet.
     pub(crate) fn begin(&mut self, slot: usize, system: &System, x: &[f64]) {
         self.set_state(slot, x);
-        self.sizes.begin(slot, &system.scales);
+        self.sizes.begin(slot, &system.scales, system.plan.together);
     }
 
     /// Sizes of the states of a lane, and how large they have been.
@@ -227,25 +227,28 @@ impl Kernel {
     }
 
     /// Lanes in which something may happen in the coming step.
-    pub(crate) fn needs_a_look(&self) -> [bool; LANES] {
+    #[inline(always)]
+    fn needs_a_look(&self) -> [bool; LANES] {
         let mut look = self.wary;
         for guard in &self.guards {
             for (slot, look) in look.iter_mut().enumerate() {
                 // Also if a bound is NaN.
-                let clear = guard.low.0[slot] > guard.floor.0[slot]
-                    && guard.high.0[slot] < guard.ceiling.0[slot];
+                let clear = (guard.low.0[slot] > guard.floor.0[slot])
+                    & (guard.high.0[slot] < guard.ceiling.0[slot]);
                 *look |= !clear;
             }
         }
         for (slot, look) in look.iter_mut().enumerate() {
-            *look |= !self.is_finite(slot);
+            // A step has no length if the series is not finite.
+            *look |= self.lengths.0[slot] == 0.0;
         }
         look
     }
 
-    /// Series of all lanes, the step they allow and the range of the guards over it.
-    pub(crate) fn expand(&mut self) {
-        dispatch!(self.level, simd => self.expand_with(Wide(simd)));
+    /// Series of all lanes, the step they allow and the range of the guards over it; gives the lanes in which something
+    /// may happen in that step.
+    pub(crate) fn expand(&mut self) -> [bool; LANES] {
+        dispatch!(self.level, simd => self.expand_with(Wide(simd)))
     }
 
     /// States at the end of each lane's step, in place of those at its start.
@@ -254,7 +257,7 @@ impl Kernel {
     }
 
     #[inline(always)]
-    fn expand_with<S: Simd>(&mut self, arith: Wide<S>) {
+    fn expand_with<S: Simd>(&mut self, arith: Wide<S>) -> [bool; LANES] {
         let (structure, series) = (&self.structure, &mut self.series);
         expand(arith, structure, self.shape, &self.stream, series);
         self.tail = self.tail_of_states(arith);
@@ -263,32 +266,28 @@ impl Kernel {
         if self.sizes.are_due() {
             self.measure();
         }
-        for slot in 0..LANES {
-            self.lengths.0[slot] = self.length(slot);
-        }
+        self.lengths = self.step_lengths();
         self.bound_guards(arith);
+        self.needs_a_look()
     }
 
     /// Last and last-but-one coefficients of the states, each in units of its size.
     #[inline(always)]
     fn tail_of_states<S: Simd>(&mut self, arith: Wide<S>) -> [Pack; 2] {
-        let mut tail = [arith.splat(0.0); 2];
-        let mut growth = arith.splat(0.0);
         let zero = arith.splat(0.0);
-        let sizes = self.sizes.of.iter().zip(&self.structure.state_slots);
-        for (size, &slot) in sizes {
-            let unit = arith.load(&size.inverse);
-            for (k, tail) in [self.order, self.order - 1].into_iter().zip(&mut tail) {
+        let (mut largest, mut finite) = ([zero; 3], [zero; 3]);
+        for (unit, &slot) in self.sizes.inverse.iter().zip(&self.structure.state_slots) {
+            let unit = arith.load(unit);
+            for (i, k) in [self.order, self.order - 1, 0].into_iter().enumerate() {
                 let term = arith.mul(arith.load(self.series.at(slot, k)), unit);
-                // The maximum may drop a NaN; adding 0 x keeps it.
-                *tail = arith.mul_add(term, zero, tail.max(term.abs()));
+                largest[i] = largest[i].max(term.abs());
+                // The maximum may drop a NaN; 0 x keeps it.
+                finite[i] = arith.mul_add(term, zero, finite[i]);
             }
-            let value = arith.mul(arith.load(self.series.at(slot, 0)), unit);
-            growth = arith.mul_add(value, zero, growth.max(value.abs()));
         }
-        tail[0] = arith.mul_add(growth, zero, tail[0]);
-        self.sizes.growth = arith.store(growth);
-        tail.map(|t| arith.store(t))
+        self.sizes.growth = arith.store(largest[2]);
+        let [last, before, value] = finite;
+        [largest[0] + (last + value), largest[1] + before].map(|t| arith.store(t))
     }
 
     /// The same of the tangents, in units of the largest.
@@ -311,35 +310,56 @@ impl Kernel {
         [part(last), part(before)]
     }
 
-    /// Length of the step: the last two terms of the series stay below the tolerance, in units of the size
-    /// of each state and of the largest tangent, and it ends at the next sample at the latest.
+    /// Length of each step: the last two terms of the series stay below the tolerance, in units of the size of each
+    /// state and of the largest tangent, and it ends at the next sample at the latest. 0 if the series is not finite.
     #[inline(always)]
-    fn length(&self, slot: usize) -> f64 {
-        if !self.is_finite(slot) {
-            return 0.0;
+    fn step_lengths(&self) -> Pack {
+        let mut lengths = self.left.0;
+        self.shorten(&self.tail, |slot| self.sizes.largest(slot), &mut lengths);
+        if let Some(tail) = &self.tangent_tail {
+            self.shorten(tail, |_| 1.0, &mut lengths);
         }
+        Pack(lengths)
+    }
+
+    /// Steps no longer than these terms allow, in units of a size. Without branches, so that the lanes are computed side
+    /// by side.
+    #[inline(always)]
+    fn shorten(&self, tail: &[Pack; 2], size: impl Fn(usize) -> f64, lengths: &mut [f64; LANES]) {
         let p = self.order as f64;
-        let allowed = |tail: &[Pack; 2]| {
-            let [last, before] = tail.map(|t| self.tolerance / t.0[slot].max(f64::MIN_POSITIVE));
-            root(last, p).min(root(before, p - 1.0))
-        };
-        let tangents = self.tangent_tail.as_ref().map_or(f64::INFINITY, allowed);
-        allowed(&self.tail).min(tangents).min(self.left.0[slot])
+        for (i, length) in lengths.iter_mut().enumerate() {
+            let [last, before] = [tail[0].0[i], tail[1].0[i]];
+            let tolerance = self.tolerance * size(i);
+            let by = |term: f64, p: f64| root(tolerance / term.max(f64::MIN_POSITIVE), p);
+            let allowed = by(last, p).min(by(before, p - 1.0)).min(*length);
+            *length = if (last + before).is_finite() {
+                allowed
+            } else {
+                0.0
+            };
+        }
     }
 
     /// Sizes of states that have none yet or have outgrown theirs, and the tail of their lanes with these.
     #[cold]
     fn measure(&mut self) {
-        let due = (0..LANES).filter(|&slot| self.sizes.is_due(slot) && self.is_finite(slot));
-        for slot in due.collect::<Vec<_>>() {
-            let controlled = &self.structure.state_slots[..self.structure.controlled];
-            let series = |&state: &usize| self.power(slot, state).collect();
-            let series: Vec<Vec<f64>> = controlled.iter().map(series).collect();
-            let (longest, tolerance) = (self.left.0[slot], self.tolerance);
-            self.sizes.measure(slot, longest, tolerance, &series);
+        for slot in 0..LANES {
+            if !self.sizes.is_due(slot) || !self.is_finite(slot) {
+                continue;
+            }
+            let (structure, series) = (&self.structure, &self.series);
+            let of = |state: usize| series.of(structure.state_slots[state]).map(|a| a.0[slot]);
+            let row = |k: usize| {
+                let row = series.row(k);
+                let slots = structure.state_slots.iter();
+                slots.map(move |&at| row[at].0[slot])
+            };
+            let longest = self.left.0[slot];
+            self.sizes
+                .measure(slot, longest, self.tolerance, row(0), of);
             for (k, tail) in [self.order, self.order - 1].into_iter().zip(&mut self.tail) {
-                let terms = series.iter().zip(&self.sizes.of);
-                let terms = terms.map(|(series, size)| series[k].abs() * size.inverse.0[slot]);
+                let terms = self.sizes.inverse.iter().zip(row(k));
+                let terms = terms.map(|(unit, term)| term.abs() * unit.0[slot]);
                 tail.0[slot] = terms.fold(0.0, f64::max);
             }
         }
@@ -348,16 +368,27 @@ impl Kernel {
     /// Range of each guard over the step: a lane whose guards keep their sign needs no root search.
     #[inline(always)]
     fn bound_guards<S: Simd>(&mut self, arith: Wide<S>) {
+        // The usual length is known to the compiler, which then keeps all coefficients in registers.
+        if self.order >= HEAD {
+            self.bound_guards_by(arith, HEAD + 1);
+        } else {
+            self.bound_guards_by(arith, self.order + 1);
+        }
+    }
+
+    /// By so many Bernstein coefficients and a bound on the other terms.
+    #[inline(always)]
+    fn bound_guards_by<S: Simd>(&mut self, arith: Wide<S>, head: usize) {
         let length = arith.load(&self.lengths);
         let table = self.table.head.as_deref().unwrap_or(&self.table);
         for (range, &slot) in self.guards.iter_mut().zip(&self.structure.guard_slots) {
-            let head = HEAD.min(self.order) + 1;
             let mut bernstein = [arith.load(self.series.at(slot, 0)); HEAD + 1];
             let mut scale = length;
             for k in 1..head {
                 let a = arith.mul(arith.load(self.series.at(slot, k)), scale);
                 scale = arith.mul(scale, length);
-                for (b, &w) in bernstein[k..head].iter_mut().zip(table.column(k)) {
+                let weights = &table.column(k)[..head - k];
+                for (b, &w) in bernstein[k..head].iter_mut().zip(weights) {
                     *b = arith.mul_add(arith.splat(w), a, *b);
                 }
             }
@@ -415,11 +446,11 @@ impl Kernel {
     }
 }
 
-/// x^(1/p) to a few per cent, from the exponent's bits: enough to choose a step, and a hundred times
+/// x^(1/p) of a positive x to a few per cent, from the exponent's bits: enough to choose a step, and a hundred times
 /// cheaper than `powf`.
 #[inline(always)]
 fn root(x: f64, p: f64) -> f64 {
     const ONE: f64 = 4_607_182_418_800_017_408.0; // bits of 1.0
-    let bits = (x.to_bits() as f64 - ONE) / p + ONE;
-    f64::from_bits(bits as u64)
+    let bits = (x.to_bits() as i64 as f64 - ONE) / p + ONE;
+    f64::from_bits(bits as i64 as u64)
 }

@@ -65,6 +65,12 @@ impl<C: Copy + Default> Series<C> {
         self.kept.chunks_exact(self.slots)
     }
 
+    /// Order k of all slots.
+    #[inline(always)]
+    pub(crate) fn row(&self, k: usize) -> &[C] {
+        &self.kept[k * self.slots..][..self.slots]
+    }
+
     /// Order k of a slot.
     #[inline(always)]
     pub(crate) fn at(&self, slot: usize, k: usize) -> &C {

@@ -293,6 +293,8 @@ pub struct SystemBuilder {
     drive: Option<f64>,
     pub(crate) quadratures: usize,
     scales: Vec<f64>,
+    /// Whether all states are as large as the largest.
+    pub(crate) together: bool,
     pub(crate) derivative: Vec<Option<Node>>,
     pub(crate) ops: Vec<RawOp>,
     /// Nodes that the operations make.
@@ -351,6 +353,7 @@ impl SystemBuilder {
             drive: None,
             quadratures: 0,
             scales: vec![0.0; states],
+            together: false,
             derivative: vec![None; states],
             ops: Vec::new(),
             nodes: 0,
@@ -372,6 +375,14 @@ impl SystemBuilder {
     /// If there is no such state.
     pub fn scale(&mut self, index: usize, scale: f64) {
         self.scales[index] = scale;
+    }
+
+    /// Lets errors of all states be relative to the largest of them, and to `scale` where that is smaller: they are one
+    /// body, and what matters of a small part of it is its share of the whole. A state beyond 16 scales is not part of it
+    /// any more, and each is then relative to its own size. Takes the place of all scales so far.
+    pub fn scale_together(&mut self, scale: f64) {
+        self.scales.fill(scale);
+        self.together = true;
     }
 
     /// Drives the system at angular frequency `omega`; gives cos(omega t) and sin(omega t).
@@ -681,7 +692,7 @@ impl SystemBuilder {
         let scales = self
             .scales
             .iter()
-            .position(|s| !(*s >= 0.0 && s.is_finite()));
+            .position(|s| !(*s >= 0.0 && s.is_finite()) || self.together && *s == 0.0);
         if let Some(state) = scales {
             let scale = self.scales[state];
             return Err(BuildError::Scale { state, scale });

@@ -82,9 +82,9 @@ impl<T: Task> Ensemble<T> {
         }
         while self.lanes.iter().any(Option::is_some) {
             check_stop(stop)?;
-            self.kernel.expand();
+            let looks = self.kernel.expand();
             self.plans = Default::default();
-            for (slot, look) in self.kernel.needs_a_look().into_iter().enumerate() {
+            for (slot, look) in looks.into_iter().enumerate() {
                 if look {
                     self.plan(slot);
                 }

@@ -444,3 +444,27 @@ fn states_that_start_at_zero_are_measured_by_what_they_become() {
     assert!((z / (1e-9 * 125.0 / 6.0) - 1.0).abs() < 1e-11, "{z}");
     assert!(recording.end.steps < 100, "{}", recording.end.steps);
 }
+
+#[test]
+fn states_of_one_body_share_a_size() {
+    // An oscillator of amplitude a/8 beside a part at rest of size a.
+    let run_at = |a: f64| {
+        let mut b = SystemBuilder::new(3);
+        let (x, v) = (b.state(0), b.state(1));
+        let back = b.linear(0.0, &[(-1.0, x)]);
+        let still = b.linear(0.0, &[]);
+        b.derivative(0, v);
+        b.derivative(1, back);
+        b.derivative(2, still);
+        b.scale_together(1.0);
+        let system = b.build(20.0).unwrap();
+        let recording = run(&system, &[], &[a / 8.0, 0.0, a], 1, Method::taylor(1e-8));
+        (recording.end.steps, recording.end.point.x[0] / a)
+    };
+    // Beyond the scale all grows with the largest, to the bit: these are powers of two.
+    assert_eq!(run_at(8.0), run_at(1.0));
+    // Below it steps grow, and errors stay those of the scale.
+    let (steps, x) = run_at(1.0 / 1024.0);
+    assert!(steps < run_at(1.0).0, "{steps}");
+    assert!((x / 1024.0 - 20_f64.cos() / 8.0 / 1024.0).abs() < 1e-6);
+}

@@ -82,7 +82,7 @@ pub(crate) fn build(
 ) -> Result<Equations, BuildError> {
     let mut b = SystemBuilder::new(layout.len());
     // Motions of a thickness matter, and the first mode of a plate at rest need not be known to 1e-10 of itself.
-    (0..layout.len()).for_each(|state| b.scale(state, 1.0));
+    b.scale_together(1.0);
     let (cos, sin) = b.drive(1.0);
     let amplitude = setup.base.amplitude / scales.length;
     let legs: Vec<Leg> = setup
