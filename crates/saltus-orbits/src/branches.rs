@@ -15,7 +15,7 @@ const SAME_STATE: f64 = 1e-4;
 const SAME_WAY: f64 = 1.0 - 1e-6;
 
 /// Points with unstable orbits that end a branch which is followed for its stable part.
-const BEYOND: usize = 3;
+const BEYOND: usize = 1;
 
 /// Which branches are followed, and how.
 #[derive(Clone, Debug, PartialEq)]

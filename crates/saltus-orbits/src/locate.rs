@@ -26,13 +26,21 @@ impl<F: Family + ?Sized> Path<'_, F> {
         b: &Point,
         near: usize,
     ) -> Result<Vec<Special>, NotFound> {
-        let (mut found, mut from) = (Vec::new(), a.clone());
+        let (mut found, mut from) = (Vec::<Special>::new(), a.clone());
+        let mut behind = None;
         while found.len() < MOST && !changes(&from, b, pair_passes(&from, b)).is_empty() {
-            let (special, next) = self.first(from, b.clone(), near)?;
-            found.extend(special);
+            let (special, [before, next]) = self.first(from, b.clone(), near)?;
+            if let Some(mut special) = special {
+                if let (Some(last), Some(behind)) = (found.last_mut(), &behind)
+                    && let Some(outside) = self.outside_between(behind, &before)
+                {
+                    (last.outside[1], special.outside[0]) = (outside, outside);
+                }
+                found.push(special);
+                behind = Some(next.clone());
+            }
             from = next;
         }
-        // Next to a special point rounding decides on which side of the circle its multiplier is.
         if let Some(first) = found.first_mut() {
             first.outside[0] = a.outside;
         }
@@ -42,13 +50,21 @@ impl<F: Family + ?Sized> Path<'_, F> {
         Ok(found)
     }
 
-    /// The first special point between two points, and the point behind it.
+    /// How many multipliers lie outside the unit circle between two special points. Next to one of them rounding decides
+    /// on which side its multiplier is, so they are counted midway.
+    fn outside_between(&self, behind: &Point, before: &Point) -> Option<usize> {
+        let apart = self.distance(behind, before) > 0.0;
+        let midway = apart.then(|| self.between(behind, before, 0.5))?;
+        Some(midway.ok()?.outside)
+    }
+
+    /// The first special point between two points, and the points next to it.
     fn first(
         &self,
         mut a: Point,
         mut b: Point,
         near: usize,
-    ) -> Result<(Option<Special>, Point), NotFound> {
+    ) -> Result<(Option<Special>, [Point; 2]), NotFound> {
         let (mut aim, pairs) = (Aim::default(), pair_passes(&a, &b));
         for round in 0..ROUNDS {
             let tests = changes(&a, &b, pairs);
@@ -62,7 +78,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
             if let [Test::BranchPoint] | [Test::BranchPoint, Test::Fold] = tests[..]
                 && let Some(special) = self.crossing(&a, &b, near)
             {
-                return Ok((Some(special), b));
+                return Ok((Some(special), [a, b]));
             }
             if zero || length <= NARROW * size {
                 break;
@@ -95,7 +111,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
                 aim.moved(1);
             }
         }
-        Ok((self.special(&a, &b, pairs, near), b))
+        Ok((self.special(&a, &b, pairs, near), [a, b]))
     }
 
     /// The grazing between the last point of a branch and the first one beyond, with none in between.

@@ -199,6 +199,10 @@ impl<F: Family + ?Sized> Path<'_, F> {
             guess.parameters[self.free[0].index] = edge;
             point = self.solve(&guess, &self.upwards(), &point.tangent)?;
         }
+        // At a kink, and at a birth close to one, the corrector finds the orbit of half the period as easily.
+        if shortest_period(&point.orbit.places) < point.orbit.period() {
+            return Err(End::StepTooSmall);
+        }
         if events::same(
             &events::sequence(&last.orbit),
             &events::sequence(&point.orbit),
@@ -206,9 +210,6 @@ impl<F: Family + ?Sized> Path<'_, F> {
             if angle(&last.tangent, &point.tangent) > self.options.angle {
                 return Err(End::StepTooSmall);
             }
-        } else if shortest_period(&point.orbit.places) < shortest_period(&last.orbit.places) {
-            // At a kink the corrector finds the orbit of half the period as easily.
-            return Err(End::StepTooSmall);
         } else if dot(&point.tangent, &self.apart(last, &point)) < 0.0 {
             // Where the map has a kink so has the branch, and its old direction says little.
             point = point.reversed();

@@ -20,8 +20,8 @@ const STEP: f64 = 2e-6;
 const ASIDE: [f64; 2] = [1e-6, 1e-8];
 const ASTRAY: f64 = 30.0;
 
-/// Distances from a fold at which orbits are taken, as parts of the range; a hundredth of them where the
-/// multiplier is far from 1 there.
+/// Distances from a fold at which orbits are taken, as parts of the range, and factors to them: what else is near says
+/// which is best.
 const NEAR_FOLD: [f64; 3] = [1e-6, 4e-6, 9e-6];
 const NEARER: [f64; 3] = [1.0, 1e-2, 1e-4];
 
@@ -108,14 +108,15 @@ impl<F: Family> Scene<'_, F> {
         None
     }
 
-    /// By the parabola through (multiplier - 1)^2 at three values on the side where there are orbits. They are sought
-    /// on the way to the neighbouring points of the branch, which goes as the root of the distance.
+    /// By the parabola through (multiplier - 1)^2 at three values on the side where there are orbits, at the distance where
+    /// it is nearest to the straight line through two of them. Orbits are sought on the way to the neighbouring points of
+    /// the branch, which goes as the root of the distance.
     fn fold(&self) -> Option<f64> {
         let differences = Differences::new(self.family, STEP);
         let special = self.special;
         let neighbours = self.branch.points[special.near..].iter().take(2);
-        let mut tries = neighbours.flat_map(|point| NEARER.map(|scale| (point, scale)));
-        tries.find_map(|(point, scale)| {
+        let tries = neighbours.flat_map(|point| NEARER.map(|scale| (point, scale)));
+        let found = tries.filter_map(|(point, scale)| {
             let away = point.parameter - special.parameter;
             let at =
                 NEAR_FOLD.map(|part| special.parameter + away.signum() * scale * part * self.range);
@@ -128,15 +129,11 @@ impl<F: Family> Scene<'_, F> {
                 Some((near - 1.0).powi(2))
             };
             let squares = [square(at[0])?, square(at[1])?, square(at[2])?];
-            // The inverse function at zero (Lagrange).
-            let weight = |i: usize| {
-                let others = (0..3).filter(|&j| j != i);
-                others
-                    .map(|j| squares[j] / (squares[j] - squares[i]))
-                    .product::<f64>()
-            };
-            Some((0..3).map(|i| weight(i) * at[i]).sum())
-        })
+            let [line, parabola] = [2, 3].map(|n| at_zero(&squares[..n], &at[..n]));
+            Some((parabola, (parabola - line).abs()))
+        });
+        let best = found.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some(best.0)
     }
 
     /// Where orbits change the number of their switches.
@@ -163,6 +160,16 @@ impl<F: Family> Scene<'_, F> {
         }
         Some(f64::midpoint(low, high))
     }
+}
+
+/// Value at zero of the polynomial with these values at these places (Lagrange).
+fn at_zero(places: &[f64], values: &[f64]) -> f64 {
+    let weight = |i: usize| {
+        let others = (0..places.len()).filter(|&j| j != i);
+        let factors = others.map(|j| places[j] / (places[j] - places[i]));
+        factors.product::<f64>()
+    };
+    (0..places.len()).map(|i| weight(i) * values[i]).sum()
 }
 
 /// Places a part of the way from some to others.

@@ -28,7 +28,7 @@ const ALONG: Along = Along {
 const START: f64 = 0.45;
 
 /// Points with unstable orbits that end a branch which is followed for its stable part.
-const BEYOND: usize = 3;
+const BEYOND: usize = 1;
 
 /// Under the other laws and the other reading, where only long stretches are told: longest period of a cycle whose
 /// doubling is sought, and of a motion whose cycle is.
@@ -37,11 +37,15 @@ const OTHERS: [usize; 2] = [8, 16];
 /// Doublings in a row: more than the longest period allows.
 const DOUBLINGS: usize = 16;
 
-/// Distance of two doublings at which a cascade is followed no further.
-const CLOSEST: f64 = 1e-6;
+/// Distance of two doublings at which a cascade is followed no further: the next one is below 1e-6.
+const CLOSEST: f64 = 4.67e-6;
 
 /// Longest period looked for in a motion that does not seem to repeat.
 const RECORD: u64 = 128;
+
+/// A motion beside a period doubling is nearer to the doubling orbit than is seen as long as the multiplier of that is
+/// above minus this.
+const DOUBLED: f64 = 1.05;
 
 /// A largest multiplier nearer to 1 than this is on the unit circle.
 const EDGE: f64 = 1e-6;
@@ -301,18 +305,34 @@ impl Panel<'_> {
         }
     }
 
-    /// The stable cycle near a motion.
+    /// The stable cycle near a motion, or the one that has just doubled into it. Beside a fold a motion that is nearly there
+    /// may still be too far for Newton's method.
     fn cycle<F: Family>(&self, family: &F, seed: &Seed) -> Result<Option<Orbit>, StudyError> {
         let model = self.model_at(seed.zeta)?;
-        let leg = Leg {
-            system: model.system().clone(),
-            start: seed.state.clone(),
-            periods: seed.period as u64,
-        };
-        let run = record(&leg, &self.control.options)?;
-        let places: Vec<Place> = run.samples.iter().map(|at| place(&model, at)).collect();
-        let orbit = find_orbit(family, &[seed.zeta], &places, &NewtonOptions::default());
-        Ok(orbit.ok().filter(Orbit::stable))
+        let (period, patience) = (seed.period as u64, self.effort.patience);
+        let mut start = seed.state.clone();
+        for wait in [0, patience] {
+            let run = |start, periods| {
+                let system = model.system().clone();
+                let leg = Leg {
+                    system,
+                    start,
+                    periods,
+                };
+                record(&leg, &self.control.options)
+            };
+            if wait > 0 {
+                start = run(start, wait.next_multiple_of(period))?.end.point;
+            }
+            let samples = run(start.clone(), period)?.samples;
+            let places: Vec<Place> = samples.iter().map(|at| place(&model, at)).collect();
+            let orbit = find_orbit(family, &[seed.zeta], &places, &NewtonOptions::default());
+            let met = |orbit: &Orbit| orbit.stable() || doubles_beside(orbit);
+            if let Some(orbit) = orbit.ok().filter(met) {
+                return Ok(Some(orbit));
+            }
+        }
+        Ok(None)
     }
 
     /// Adds the branch of an orbit, with those that grow from it.
@@ -340,7 +360,6 @@ impl Panel<'_> {
             } else {
                 longest.min(OTHERS[0])
             },
-            crossings: papers || main,
             closest: CLOSEST,
             branches: 100,
             continuation: ContinuationOptions {
@@ -348,15 +367,14 @@ impl Panel<'_> {
                 unstable: entire.map_or(BEYOND, |_| usize::MAX),
                 ..ContinuationOptions::default()
             },
+            ..BranchesOptions::default()
         };
         let mut go_on = |_: &Point| self.stopped().is_ok();
         let limbs = branches(family, orbit, &ALONG, &options, &mut go_on);
         self.stopped()?;
         let first = known.limbs.len();
         for limb in renumbered(limbs.unwrap_or_default(), &known.limbs) {
-            // One from a period halving on may be that of an earlier motion.
-            let middle = &limb.branch.points[limb.branch.points.len() / 2];
-            if !self.is_known(family, &known.limbs[..first], &middle.orbit) {
+            if self.leads_further(family, &known.limbs[..first], &limb) {
                 known.limbs.push(limb);
             }
         }
@@ -397,6 +415,17 @@ impl Panel<'_> {
         };
         let model_at = |zeta: f64| self.model_at(zeta);
         follow(&values, model_at, &starts, &Search::default(), self.control)
+    }
+
+    /// Whether a branch is not, or not as far, among those known: one from a period halving on may be that of an earlier
+    /// motion.
+    fn leads_further<F: Family>(&self, family: &F, known: &[Limb], limb: &Limb) -> bool {
+        let points = &limb.branch.points;
+        let stable = || points.iter().filter(|point| point.stable);
+        let middle = points.get(points.len() / 2);
+        let some = middle.into_iter().chain(stable().next());
+        let mut some = some.chain(stable().next_back());
+        some.any(|point| !self.is_known(family, known, &point.orbit))
     }
 
     /// Whether an orbit lies on one of the branches: the orbit of that branch at its damping ratio is the same.
@@ -544,6 +573,13 @@ fn heights(model: &Model, orbit: &Orbit) -> Vec<f64> {
         .iter()
         .map(|place| model.z(0, &place.x))
         .collect()
+}
+
+/// Whether an orbit is a little beyond its period doubling, where the doubled one is hard to tell from it.
+fn doubles_beside(orbit: &Orbit) -> bool {
+    let first = orbit.multipliers.first();
+    let beyond = first.is_some_and(|m| m.im == 0.0 && (-DOUBLED..=-1.0).contains(&m.re));
+    beyond && orbit.outside() <= 1
 }
 
 /// Whether two orbits are one, begun at any place.

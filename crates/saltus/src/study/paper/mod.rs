@@ -79,7 +79,7 @@ impl Effort {
             census_starts: 32,
             patience: 2000,
             doublings: 2,
-            islands: 8,
+            islands: 6,
             cascade_period: 64,
         }
     }
@@ -99,7 +99,7 @@ impl Effort {
             census_values: 17,
             census_starts: 8,
             patience: 500,
-            doublings: 1,
+            doublings: 0,
             islands: 0,
             cascade_period: 8,
         }

@@ -96,18 +96,17 @@ impl Stretch {
             && [&self.from, &self.to].iter().any(meets)
     }
 
-    /// Whether both are the same, seen from two branches.
-    fn is(&self, other: &Self) -> bool {
-        let close = |a: &Bound, b: &Bound| (a.damping_ratio - b.damping_ratio).abs() < SAME;
-        let middle = f64::midpoint(self.from.damping_ratio, self.to.damping_ratio);
+    /// Whether another is this one or a part of it, seen from another branch.
+    fn contains(&self, other: &Self) -> bool {
+        let middle = f64::midpoint(other.from.damping_ratio, other.to.damping_ratio);
         let on = |section: Vec<[f64; 2]>| {
             let (z, v): (Vec<f64>, Vec<f64>) =
                 section.iter().map(|place| (place[0], place[1])).unzip();
             self.holds(middle, &z, &v)
         };
         self.period == other.period
-            && close(&self.from, &other.from)
-            && close(&self.to, &other.to)
+            && self.from.damping_ratio < other.from.damping_ratio + SAME
+            && self.to.damping_ratio > other.to.damping_ratio - SAME
             && other.section(middle).is_some_and(on)
     }
 }
@@ -186,7 +185,8 @@ pub(super) fn collect<E>(
                 to,
                 cycles,
             };
-            if !known.iter().any(|other| other.is(&stretch)) {
+            if !known.iter().any(|other| other.contains(&stretch)) {
+                known.retain(|other| !stretch.contains(other));
                 known.push(stretch);
             }
         }
