@@ -26,11 +26,15 @@ impl<F: Family + ?Sized> Path<'_, F> {
         self.birth(&guess, |_| Some(tangent))
     }
 
-    /// The branch of half the period, where one of its doubled branches ends: on it nothing special happens to the
-    /// equations.
+    /// The branch of half the period, where one of its doubled branches ends, a step aside: on it nothing special happens
+    /// to the equations, but at the doubling itself rounding decides on which side of the circle the multiplier is.
     pub(crate) fn half(&self, special: &Special) -> Option<Point> {
         let orbit = self.at(special, special.parameter)?;
-        self.seed(&orbit, true).ok()
+        let seed = self.seed(&orbit, true).ok()?;
+        // The first step back is to lead across the doubling, and not onto it.
+        let aside = |from: &Point| self.next(from, 0.6 * self.options.initial).ok();
+        let back = || Some(aside(&seed.clone().reversed())?.reversed());
+        Some(aside(&seed).or_else(back).unwrap_or(seed))
     }
 
     /// Puts a halving where it is known best: at the period doubling on the branch of half the period, found there
