@@ -2,7 +2,7 @@
 
 use super::report::Share;
 use saltus::orbits::Exponent;
-use saltus::study::{Counted, Kind, Survival, Transient};
+use saltus::study::{Counted, Survival, Transient};
 use serde::Serialize;
 
 /// Evidence for one attractor; what does not apply to its kind is null.
@@ -46,7 +46,7 @@ impl From<&Counted> for Evidence {
         let exponent = motion.exponent.filter(|_| motion.kind.never_repeats());
         let number = |of: fn(&Exponent) -> f64| exponent.as_ref().map(of);
         Self {
-            kind: kind(motion.kind),
+            kind: motion.kind.name(),
             multiplier: motion.multiplier,
             exponent: number(|exponent| exponent.per_iterate),
             exponent_error: number(|exponent| exponent.standard_error),
@@ -117,16 +117,5 @@ impl Evidence {
         });
         let parts: Vec<String> = exponent.into_iter().chain(survival).collect();
         parts.join(", ")
-    }
-}
-
-/// The word in tables.
-fn kind(kind: Kind) -> &'static str {
-    match kind {
-        Kind::Periodic(_) => "periodic",
-        Kind::QuasiPeriodic => "quasi-periodic",
-        Kind::Chaotic => "chaotic",
-        Kind::NotPeriodic => "not-periodic",
-        Kind::Undecided => "undecided",
     }
 }

@@ -32,6 +32,8 @@ pub(super) struct AttractorReport {
     matched: Option<usize>,
     /// Null if not periodic.
     pub(super) period: Option<u32>,
+    /// What kind of motion, in words.
+    pub(super) kind: &'static str,
     pub(super) pixels: u64,
     pub(super) share: f64,
     /// The first pixel that leads to it.
@@ -93,6 +95,7 @@ impl AttractorReport {
                 Kind::Periodic(n) => Some(n),
                 _ => None,
             },
+            kind: motion.kind.name(),
             pixels: entry.count,
             share: entry.share(plane.grid.len() as u64),
             start: plane.grid.at(entry.first).into(),
@@ -106,9 +109,9 @@ impl AttractorReport {
         }
     }
 
-    /// `2T`, or `not periodic`.
+    /// `2T`, or what else it is.
     pub(super) fn name(&self) -> String {
         self.period
-            .map_or("not periodic".to_owned(), |n| format!("{n}T"))
+            .map_or(self.kind.to_owned(), |n| format!("{n}T"))
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Plane;
 use super::report::Report;
+use saltus::study::Kind;
 use std::fmt::Write;
 
 /// Attractors listed.
@@ -26,10 +27,15 @@ pub(super) fn text(plane: &Plane, report: &Report) -> String {
             .iter()
             .map(|c| format!("{c:.3}"))
             .collect();
+        let over = report.tally.chaotic_over;
+        let over = over.filter(|_| attractor.kind == Kind::Chaotic.name());
+        let over = over.map_or(String::new(), |span| {
+            format!(" for {} periods and more", span.min)
+        });
         // writing to a string cannot fail
         let _ = writeln!(
             text,
-            "  {:>3}  {:>5.1} %  {}, contact {}, first from [{:.4}, {:.4}]",
+            "  {:>3}  {:>5.1} %  {}{over}, contact {}, first from [{:.4}, {:.4}]",
             attractor.number,
             100.0 * attractor.share,
             attractor.name(),

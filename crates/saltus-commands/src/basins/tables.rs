@@ -13,6 +13,10 @@ pub(super) fn write(folder: &mut dyn Store, study: &Study, report: &Report) -> R
         ("study", "study.toml"),
         ("attractor", "number, by its share of the pixels"),
         ("period", "forcing periods; empty if not periodic"),
+        (
+            "kind",
+            "periodic, quasi-periodic, chaotic, not-periodic or undecided",
+        ),
         ("contact_ratio", "part of the time on the floor (-)"),
         ("peak_reaction", "largest reaction (body weights)"),
         (
@@ -28,6 +32,7 @@ pub(super) fn write(folder: &mut dyn Store, study: &Study, report: &Report) -> R
     let header = [
         "attractor",
         "period",
+        "kind",
         "pixels",
         "share",
         "jumper",
@@ -56,6 +61,7 @@ fn lines(attractor: &AttractorReport, jumper: usize) -> Vec<Vec<Value>> {
     let head = vec![
         Value::Integer(attractor.number as i64),
         attractor.period.into(),
+        attractor.kind.into(),
         Value::Integer(attractor.pixels as i64),
         attractor.share.into(),
         Value::Integer(jumper as i64),

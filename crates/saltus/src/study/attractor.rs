@@ -139,6 +139,17 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// As in results; of a cycle without its period.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Periodic(_) => "periodic",
+            Self::QuasiPeriodic => "quasi-periodic",
+            Self::Chaotic => "chaotic",
+            Self::NotPeriodic => "not-periodic",
+            Self::Undecided => "undecided",
+        }
+    }
+
     /// Whether it is known not to repeat.
     pub fn never_repeats(self) -> bool {
         matches!(
