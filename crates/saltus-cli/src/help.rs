@@ -163,8 +163,8 @@ Layers (basins.nc): attractor (its number, 0 for none) and those of
 JSON (--json, and basins.json in --out):
   attractors         the most frequent first:
     number, period   forcing periods; null if not periodic
-    kind             \"periodic\", \"quasi-periodic\", \"chaotic\", \"not-periodic\" (no cycle,
-                     with basins.exponent = 0), \"undecided\"
+    kind             \"periodic\", \"quasi-periodic\", \"chaotic\", \"undecided\", or
+                     \"not-periodic\", no cycle with basins.exponent = 0
     matched          number in `saltus attractors` (--match); null if not met
     pixels, share    how many pixels lead to it, and of all
     start            x and y of the first of them
