@@ -468,3 +468,20 @@ fn states_of_one_body_share_a_size() {
     assert!(steps < run_at(1.0).0, "{steps}");
     assert!((x / 1024.0 - 20_f64.cos() / 8.0 / 1024.0).abs() < 1e-6);
 }
+
+#[test]
+fn a_state_that_starts_at_zero_sets_the_step_by_what_it_becomes() {
+    // x' = 30 (s - x) from zero, where nothing else says how long a step may be: x = s (1 - exp(-30 t)).
+    for s in [1e-9, 1.0, 1e9] {
+        let mut b = SystemBuilder::new(1);
+        let x = b.state(0);
+        let rate = b.linear(30.0 * s, &[(-30.0, x)]);
+        b.derivative(0, rate);
+        let system = b.build(0.25).unwrap();
+        let recording = run(&system, &[], &[0.0], 4, METHODS[0]);
+        for (n, sample) in (1..).zip(&recording.samples) {
+            let expected = 1.0 - (-7.5 * f64::from(n)).exp();
+            assert!((sample.x[0] / s - expected).abs() < 1e-11, "{s} {n}");
+        }
+    }
+}
