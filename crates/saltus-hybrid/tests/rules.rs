@@ -485,3 +485,27 @@ fn a_state_that_starts_at_zero_sets_the_step_by_what_it_becomes() {
         }
     }
 }
+
+#[test]
+fn states_that_leave_their_body_go_on_to_the_same_bits() {
+    // A part thrown far away, and back, over an oscillator: its height passes 16 in both directions.
+    let mut b = SystemBuilder::new(4);
+    let [x, v, w] = [0, 1, 3].map(|i| b.state(i));
+    let back = b.linear(0.0, &[(-1.0, x)]);
+    let fall = b.linear(-1.0, &[]);
+    b.derivative(0, v);
+    b.derivative(1, back);
+    b.derivative(2, w);
+    b.derivative(3, fall);
+    b.scale_together(1.0);
+    let system = b.build(3.0).unwrap();
+    let method = Method::taylor(1e-8);
+    let whole = run(&system, &[], &[1.0, 0.0, 0.0, 9.0], 6, method);
+    let highest = whole.samples.iter().map(|sample| sample.x[2]);
+    assert!(highest.fold(0.0, f64::max) > 30.0);
+    let mut at = vec![1.0, 0.0, 0.0, 9.0];
+    for sample in &whole.samples {
+        at = run(&system, &[], &at, 1, method).end.point.x;
+        assert_eq!(at, sample.x);
+    }
+}
