@@ -8,7 +8,7 @@ BITS.json, which the test `opens_in_xarray` writes, has for each variable its di
 (bytes, little-endian, as hexadecimal digits; or a list of texts), and the attributes. Needs xarray, h5netcdf, h5py and netCDF4:
 
     python3 -m venv venv && venv/bin/pip install xarray h5netcdf h5py netCDF4
-    SALTUS_PYTHON=venv/bin/python cargo test -p saltus-results --test dataset -- --ignored
+    SALTUS_PYTHON=venv/bin/python cargo test -p saltus-results --test main -- dataset:: --ignored
 """
 
 import argparse

@@ -1,0 +1,15 @@
+//! Integration tests: the program as a person starts it.
+#![allow(clippy::unwrap_used)]
+
+mod attractors;
+mod bad_days;
+mod cli;
+mod common;
+mod continuation;
+mod lyapunov;
+mod orbit;
+mod plane;
+mod results;
+mod shards;
+mod simulate;
+mod sweep;

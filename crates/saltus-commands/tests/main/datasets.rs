@@ -1,0 +1,302 @@
+//! The arrays of an answer and its tables are the same numbers, to the bit. Neither goes through a file here: that
+//! those keep every bit is tested where they are written.
+
+use saltus_commands::{Context, Failure, Fill, Request, Rows, Store};
+use saltus_config::{Direction, Inertia, Law, Study};
+use saltus_results::{Column, Columns, Dataset, Figure, Values};
+use std::collections::BTreeMap;
+
+/// Keeps what an answer hands over.
+#[derive(Default)]
+struct Memory {
+    tables: BTreeMap<String, Columns>,
+    datasets: Vec<(String, Dataset)>,
+}
+
+impl Store for Memory {
+    fn put_text(&mut self, _: &str, _: Fill) -> Result<(), Failure> {
+        Ok(())
+    }
+
+    fn put_table(
+        &mut self,
+        name: &str,
+        settings: &[(&str, &str)],
+        header: &[String],
+        rows: Rows,
+    ) -> Result<(), Failure> {
+        let header: Vec<&str> = header.iter().map(String::as_str).collect();
+        let mut table = Columns::new(settings, &header);
+        rows.for_each(|row| table.row(row).unwrap());
+        self.tables.insert(name.to_owned(), table);
+        Ok(())
+    }
+
+    fn put_figure(&mut self, _: &str, _: &Figure) -> Result<(), Failure> {
+        Ok(())
+    }
+
+    fn put_dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), Failure> {
+        self.datasets.push((name.to_owned(), dataset));
+        Ok(())
+    }
+}
+
+/// The paper's study, with the condensed plate.
+fn study(change: impl FnOnce(&mut Study)) -> Study {
+    let mut study = Study::paper();
+    study.plate.inertia = Inertia::Condensed;
+    change(&mut study);
+    study
+}
+
+fn two_people(study: &mut Study) {
+    let mut other = study.jumper[0].clone();
+    other.mass *= 1.5;
+    other.damping_ratio = 0.4;
+    study.jumper.push(other);
+}
+
+/// The dataset of an answer, which can be a file, and the tables beside it.
+fn answer(request: &Request, study: &Study) -> (Dataset, BTreeMap<String, Columns>) {
+    let context = Context::default();
+    let mut memory = Memory::default();
+    let answer = request.ask(study, &context).unwrap();
+    answer.fill(&mut memory).unwrap();
+    let [(name, dataset)] = &memory.datasets[..] else {
+        panic!("{} datasets", memory.datasets.len());
+    };
+    assert_eq!(*name, format!("{}.nc", request.name()));
+    assert!(dataset.clone().to_bytes().unwrap().starts_with(b"\x89HDF"));
+    (dataset.clone(), memory.tables)
+}
+
+/// An array with its lengths.
+struct Array<'a> {
+    lengths: Vec<usize>,
+    values: &'a Values,
+}
+
+impl Array<'_> {
+    /// One value; whole numbers as they are.
+    fn at(&self, place: &[usize]) -> f64 {
+        assert_eq!(place.len(), self.lengths.len());
+        let place = place.iter().zip(&self.lengths);
+        let place = place.fold(0, |sum, (&at, &length)| sum * length + at);
+        match self.values {
+            Values::F64(values) => values[place],
+            Values::I32(values) => values[place].into(),
+            Values::U8(values) => values[place].into(),
+            _ => panic!("no numbers"),
+        }
+    }
+}
+
+fn array<'a>(dataset: &'a Dataset, name: &str) -> Array<'a> {
+    let variable = dataset.get(name).expect(name);
+    let length = |dimension| {
+        let known = dataset.dimensions().iter().find(|(n, _)| n == dimension);
+        known.expect("a dimension").1
+    };
+    Array {
+        lengths: variable.dimensions().iter().map(length).collect(),
+        values: variable.values(),
+    }
+}
+
+fn column(table: &Columns, name: &str) -> Vec<f64> {
+    match table.get(name).expect(name) {
+        Column::F64(values) => values.clone(),
+        Column::I64(values) => values.iter().map(|&value| value as f64).collect(),
+        _ => panic!("{name} has no numbers"),
+    }
+}
+
+/// What numbers of rows are as places of arrays.
+fn places(table: &Columns, name: &str) -> Vec<usize> {
+    let values = column(table, name).into_iter();
+    values.map(|value| value as usize).collect()
+}
+
+/// Where each value of a table is along a coordinate.
+fn along(dataset: &Dataset, name: &str, values: &[f64]) -> Vec<usize> {
+    let Values::F64(known) = array(dataset, name).values else {
+        panic!("{name} has no numbers");
+    };
+    let place = |value| known.iter().position(|known| known == value).unwrap();
+    values.iter().map(place).collect()
+}
+
+fn assert_same(found: f64, expected: f64) {
+    let same = found.to_bits() == expected.to_bits() || found.is_nan() && expected.is_nan();
+    assert!(same, "{found:?} and not {expected:?}");
+}
+
+#[test]
+fn a_sweep_is_a_block_with_every_row_at_its_value() {
+    // a leg without a damper cannot relax: the first value has no model
+    let study = study(|study| {
+        two_people(study);
+        study.contact.law = Law::RelaxingLeg;
+        let sweep = study.sweep.as_mut().unwrap();
+        (sweep.from, sweep.to, sweep.count) = (Some(0.0), Some(0.4), Some(3));
+        (sweep.transient, sweep.record) = (6, 4);
+        sweep.direction = Direction::Both;
+    });
+    let (set, tables) = answer(&Request::Sweep, &study);
+    let (z, v) = (array(&set, "z"), array(&set, "v"));
+    assert_eq!(z.lengths, [2, 3, 2, 4]);
+    let table = &tables["sweep.csv"];
+    let value = along(&set, "jumper_damping_ratio", &column(table, "value"));
+    let [pass, jumper, sample] = ["pass", "jumper", "sample"].map(|name| places(table, name));
+    assert_eq!(table.rows(), 2 * 2 * 2 * 4);
+    for row in 0..table.rows() {
+        let place = [pass[row], value[row], jumper[row], sample[row] - 1];
+        assert_same(z.at(&place), column(table, "z")[row]);
+        assert_same(v.at(&place), column(table, "v")[row]);
+    }
+    let (status, label) = (array(&set, "status"), array(&set, "label"));
+    for pass in 0..2 {
+        assert!(z.at(&[pass, 0, 1, 3]).is_nan());
+        assert_eq!((status.at(&[pass, 0]), label.at(&[pass, 0])), (4.0, 0.0));
+        assert_eq!(status.at(&[pass, 1]), 0.0);
+        assert!(label.at(&[pass, 1]) > 0.0);
+    }
+    assert_eq!(set.get("status").unwrap().flag_meanings()[4].1, "no_model");
+    let table = &tables["rows.csv"];
+    let ratio = array(&set, "contact_ratio");
+    let value = along(&set, "jumper_damping_ratio", &column(table, "value"));
+    for (row, &expected) in column(table, "contact_ratio").iter().enumerate() {
+        let place = [row / 6, value[row], row % 2];
+        assert_same(ratio.at(&place), expected);
+    }
+}
+
+#[test]
+fn a_motion_of_nobody_one_or_two_is_one_of_arrays() {
+    for people in 0..3 {
+        let study = study(|study| {
+            two_people(study);
+            study.jumper.truncate(people);
+            study.base.frequency_ratio = None;
+            study.base.frequency = Some(2.5);
+            study.simulate.periods = 3;
+        });
+        let (set, tables) = answer(&Request::Simulate, &study);
+        let (section, z) = (&tables["section.csv"], array(&set, "z"));
+        assert_eq!(z.lengths, [3, people]);
+        for jumper in 0..people {
+            let name = if people == 1 {
+                "z".to_owned()
+            } else {
+                format!("z_{jumper}")
+            };
+            for (period, &expected) in column(section, &name).iter().enumerate() {
+                assert_same(z.at(&[period, jumper]), expected);
+            }
+        }
+        let (m, n, w) = (array(&set, "m"), array(&set, "n"), array(&set, "w"));
+        assert_eq!(w.lengths, [3, 4]);
+        for term in 0..4 {
+            let name = format!("w_{}_{}", m.at(&[term]), n.at(&[term]));
+            assert_same(w.at(&[2, term]), column(section, &name)[2]);
+        }
+        let (history, floor) = (&tables["history.csv"], array(&set, "history_floor"));
+        assert_eq!(floor.lengths, [history.rows(), people]);
+        assert_eq!(
+            array(&set, "switch_time").lengths,
+            [tables["switches.csv"].rows()]
+        );
+        let energy = &tables["energy.csv"];
+        assert_same(
+            array(&set, "energy_base").at(&[1]),
+            column(energy, "base")[1],
+        );
+    }
+}
+
+#[test]
+fn branches_are_points_one_after_the_other() {
+    let study = study(|study| {
+        study.base.frequency_ratio = Some(0.9);
+        let table = study.continuation.as_mut().unwrap();
+        (table.from, table.to, table.cloud) = (0.15, 0.35, 2);
+        table.second = None;
+    });
+    let (set, tables) = answer(&Request::Continue { origin: None }, &study);
+    let table = &tables["branches.csv"];
+    let places = places(table, "place");
+    let starts = places.iter().scan(0, |points, &place| {
+        *points += usize::from(place == 0);
+        Some(*points - 1)
+    });
+    let (z, value) = (array(&set, "z"), array(&set, "jumper_damping_ratio"));
+    let (branch, real) = (array(&set, "branch"), array(&set, "multiplier_real"));
+    for (row, point) in starts.enumerate() {
+        let of = |name| column(table, name)[row];
+        assert_same(z.at(&[point, places[row], 0]), of("z"));
+        assert_same(value.at(&[point]), of("jumper.damping_ratio"));
+        assert_same(branch.at(&[point]), of("branch"));
+        assert_same(real.at(&[point, 0]), of("multiplier_re"));
+    }
+    // the branch of Fig. 2a doubles at 0.1893
+    let special = &tables["special_points.csv"];
+    let Values::Text(labels) = array(&set, "special_label").values else {
+        panic!("labels are texts");
+    };
+    assert!(labels.contains(&"PD1".to_owned()), "{labels:?}");
+    assert_eq!(labels.len(), special.rows());
+    let at = array(&set, "special_jumper_damping_ratio");
+    assert_same(at.at(&[0]), column(special, "jumper.damping_ratio")[0]);
+    // period 1 has no second place
+    assert_eq!(z.lengths[1], 2);
+    assert!(z.at(&[0, 0, 0]).is_finite() && z.at(&[0, 1, 0]).is_nan());
+}
+
+#[test]
+fn attractors_are_numbers_over_value_and_attractor() {
+    let study = study(|study| {
+        study.attractors.count = Some(2);
+        study.attractors.starts = 4;
+    });
+    let (set, tables) = answer(&Request::Attractors, &study);
+    let (table, share) = (&tables["attractors.csv"], array(&set, "share"));
+    let value = along(&set, "jumper_damping_ratio", &column(table, "value"));
+    let number = places(table, "attractor");
+    for row in 0..table.rows() {
+        let place = [value[row], number[row] - 1];
+        assert_same(share.at(&place), column(table, "share")[row]);
+    }
+    let (z, expected) = (array(&set, "z"), column(&tables["sections.csv"], "z"));
+    assert_same(z.at(&[0, 0, 0]), expected[0]);
+    let Values::F64(all) = z.values else {
+        panic!("heights are numbers");
+    };
+    assert_eq!(all.iter().filter(|z| !z.is_nan()).count(), expected.len());
+}
+
+#[test]
+fn an_orbit_its_exponents_and_the_frequencies_are_arrays_too() {
+    let study = study(|study| {
+        study.base.frequency_ratio = Some(0.9);
+        study.jumper[0].damping_ratio = 0.45;
+        (study.lyapunov.transient, study.lyapunov.periods) = (20, 30);
+        study.lyapunov.exponents = 2;
+    });
+    let (set, tables) = answer(&Request::Orbit, &study);
+    let modulus = column(&tables["multipliers.csv"], "modulus");
+    assert_same(array(&set, "multiplier_modulus").at(&[9]), modulus[9]);
+    assert_same(
+        array(&set, "z").at(&[0, 0]),
+        column(&tables["section.csv"], "z")[0],
+    );
+    let (set, tables) = answer(&Request::Lyapunov, &study);
+    let (last, running) = (&tables["convergence.csv"], array(&set, "running_exponent"));
+    for row in 0..last.rows() {
+        assert_same(running.at(&[row, 1]), column(last, "exponent_2")[row]);
+    }
+    let (set, _) = answer(&Request::Frequencies, &study);
+    // DP section 3 prints 2.297 Hz
+    assert!((array(&set, "plate").at(&[0]) - 2.297).abs() < 5e-4);
+    assert!(array(&set, "body").lengths.is_empty());
+}

@@ -1,8 +1,0 @@
-//! Exponents, their errors, and what is made of them, on maps whose answers are known.
-#![allow(clippy::unwrap_used)]
-
-mod errors;
-mod exponents;
-mod flows;
-mod maps;
-mod natures;

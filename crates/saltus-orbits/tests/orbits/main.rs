@@ -1,8 +1,0 @@
-//! Orbits, branches and curves of maps whose answers are known by formula.
-#![allow(clippy::unwrap_used)]
-
-mod branches;
-mod curves;
-mod find;
-mod grazing;
-mod maps;

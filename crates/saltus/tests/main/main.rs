@@ -1,0 +1,17 @@
+//! Integration tests: equations, studies and the paper, against closed forms and other programs.
+#![allow(clippy::unwrap_used)]
+
+mod attractors;
+mod dias_del_prado;
+mod independent;
+mod lineages;
+mod many_modes;
+mod motion;
+mod orbits;
+mod plate_validation;
+mod rigid_base;
+mod rows;
+mod slow_manifold;
+mod specialised;
+mod statistics;
+mod tangent;
