@@ -85,9 +85,6 @@ pub(crate) struct OutputArgs {
     /// Folder for data, figure and resolved study file; made if it is not there, an earlier result in it is replaced
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    /// Write each table as a Parquet file too, beside the CSV (needs a program built with them)
-    #[arg(long, requires = "out")]
-    pub(crate) parquet: bool,
     /// No progress and no summary, only what was asked for and errors
     #[arg(long, short)]
     pub(crate) quiet: bool,

@@ -5,7 +5,7 @@ use crate::ending::Ending;
 use crate::progress::Bars;
 use crate::run::tell;
 use crate::{interrupt, output};
-use saltus_commands::{Answer, Citation, Context, Kept, bibtex};
+use saltus_commands::{Citation, Context, Kept, bibtex};
 use serde::Serialize;
 
 /// The JSON document of `cite`.

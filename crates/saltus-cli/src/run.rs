@@ -8,7 +8,7 @@ use crate::ending::Ending;
 use crate::progress::Bars;
 use crate::{check, init, interrupt, kept, output, schema};
 use saltus_commands::{
-    Answer, Context, Destination, Failure, Found, Keep, Labelled, Place, Request, Shard,
+    Answer, Context, Destination, Failure, Found, Keep, Labelled, Place, Request, Shard, Told,
 };
 use saltus_config::Study;
 use saltus_results::shown::printable_lines;
@@ -102,7 +102,6 @@ fn reproduce(args: &ReproduceArgs) -> Result<(), Ending> {
     let output = OutputArgs {
         json: args.json,
         out: Some(args.out.clone()),
-        parquet: false,
         quiet: args.quiet,
     };
     let how = How {
@@ -146,7 +145,6 @@ impl How<'_> {
             request,
             study,
             context,
-            parquet: self.output.parquet,
         }
     }
 }
@@ -199,7 +197,7 @@ fn answer(request: &Request, study: &Study, how: &How) -> Result<(), Ending> {
 }
 
 /// One document, or a text for people, or nothing, as asked.
-pub(crate) fn tell(json: bool, quiet: bool, answer: &dyn Answer) -> Result<(), Ending> {
+pub(crate) fn tell(json: bool, quiet: bool, answer: &(impl Told + ?Sized)) -> Result<(), Ending> {
     match (json, quiet) {
         (true, _) => output::print_with(|stdout| answer.document(stdout)),
         (false, true) => Ok(()),

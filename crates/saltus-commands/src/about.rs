@@ -112,7 +112,7 @@ const PLATE: Known = (
 const TAYLOR: Known = (
     "At the tolerance 1e-10 twenty forcing periods of the paper's person agree with an independent program to \
      2e-9; at other tolerances the error follows the tolerance.",
-    "crates/saltus/tests/independent.rs, crates/saltus-hybrid/tests/convergence.rs",
+    "crates/saltus/tests/main/independent.rs, crates/saltus-hybrid/tests/convergence.rs",
 );
 const RK4: Known = (
     "The error falls sixteenfold when the step halves, across switches too.",
@@ -125,12 +125,12 @@ const CHAOS: Known = (
 const SLOW_MANIFOLD: Known = (
     "After twenty forcing periods of the paper's person the slow manifold is 2e-10 from the model with full in-plane \
      inertia at the frequency ratio 0.9, and 2e-9 at 1.1, in plate thicknesses.",
-    "crates/saltus/tests/slow_manifold.rs",
+    "crates/saltus/tests/main/slow_manifold.rs",
 );
 const CONDENSED: Known = (
     "After twenty forcing periods of the paper's person the condensed model is 3e-5 from the model with full in-plane \
      inertia at the frequency ratio 0.9, and 7e-4 at 1.1, in plate thicknesses.",
-    "crates/saltus/tests/slow_manifold.rs",
+    "crates/saltus/tests/main/slow_manifold.rs",
 );
 const SPECIAL_POINTS: Known = (
     "Special points of the paper's branches agree with a second method to 1e-9 in the damping ratio, folds to 3e-9, two \
@@ -185,7 +185,7 @@ mod tests {
         use std::os::unix::ffi::OsStringExt;
         let from = std::ffi::OsString::from_vec(b"old\xff".to_vec()).into();
         let at = "PD1".to_owned();
-        let origin = Some(crate::request::Labelled { from, at });
+        let origin = Some(crate::continuation::Labelled { from, at });
         let told = about(&Request::Continue { origin }, &Study::paper());
         assert_eq!(told["request"]["origin"]["from"], "old\u{fffd}");
     }

@@ -4,9 +4,11 @@
 //! under way. The answer is then written beside the folder or, if that fails too, where the system keeps temporary
 //! files, and the failure says where.
 
+use crate::about::about;
+use crate::answer::Answer;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::request::{Answer, Request};
+use crate::request::Request;
 use crate::store::Folder;
 use saltus_config::Study;
 use saltus_results::ResultsError;
@@ -21,15 +23,13 @@ pub struct Destination<'a> {
     pub study: &'a Study,
     /// Who asks.
     pub context: &'a Context<'a>,
-    /// Whether tables become Parquet files too.
-    pub parquet: bool,
 }
 
 impl Destination<'_> {
     /// Refuses `dir` before a long computation if it cannot be written, and leaves it as it was.
     ///
     /// # Errors
-    /// As [`Folder::stage`] and [`Folder::with_parquet`].
+    /// As [`Folder::stage`].
     pub fn try_out(&self, dir: &Path) -> Result<(), Failure> {
         self.stage(dir).map(drop)
     }
@@ -121,11 +121,8 @@ impl Destination<'_> {
     }
 
     fn stage(&self, dir: &Path) -> Result<Folder, Failure> {
-        let folder = Folder::stage(dir, Some(self.request), self.study, self.context)?;
-        match self.parquet {
-            true => folder.with_parquet(),
-            false => Ok(folder),
-        }
+        let about = about(self.request, self.study);
+        Folder::stage(dir, Some(about), self.study, self.context)
     }
 }
 

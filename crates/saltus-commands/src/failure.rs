@@ -1,6 +1,6 @@
 //! Why a question has no answer.
 
-use crate::pieces::Lack;
+use crate::shard::Lack;
 use saltus::hybrid::IntegrateError;
 use saltus::model::ModelError;
 use saltus::physics::PhysicsError;

@@ -1,19 +1,15 @@
 //! `saltus frequencies`: the plate empty, in its plane, and with the people on it.
 
+use crate::answer::{Answer, Take};
 use crate::context::Context;
-use crate::dataset::motion::jumpers;
-use crate::dataset::{about, numbered, variable};
+use crate::data::about;
 use crate::failure::Failure;
-use crate::request::Answer;
-use crate::store::{self, Store};
+use crate::quantities as q;
 use saltus_config::Study;
-use saltus_results::Dataset;
-use serde::Serialize;
+use saltus_results::{Dataset, Quantity, Table};
 use std::f64::consts::TAU;
-use std::io::{self, Write};
 
 /// All in Hz, lists ascending.
-#[derive(Serialize)]
 struct Frequencies {
     /// Transverse, empty plate.
     plate_hz: Vec<f64>,
@@ -27,7 +23,6 @@ struct Frequencies {
     free_hz: Vec<f64>,
     /// Base motion, Omega/(2 pi).
     base_hz: f64,
-    #[serde(skip)]
     study: Study,
 }
 
@@ -36,16 +31,20 @@ pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, F
 }
 
 impl Answer for Frequencies {
+    fn study(&self) -> &Study {
+        &self.study
+    }
+
+    fn data(&self) -> Dataset {
+        data(self)
+    }
+
     fn summary(&self) -> String {
         table(self)
     }
 
-    fn document(&self, to: &mut dyn Write) -> io::Result<()> {
-        store::stream_json(to, self)
-    }
-
-    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
-        store.dataset("frequencies.nc", dataset(self))
+    fn draw(&self, _: Take) -> Result<(), Failure> {
+        Ok(())
     }
 }
 
@@ -63,44 +62,33 @@ fn frequencies(study: &Study, context: &Context) -> Result<Frequencies, Failure>
     })
 }
 
-/// All of them over dimensions of their own, for xarray and its like.
-fn dataset(found: &Frequencies) -> Dataset {
-    let modes = |set: Dataset, name: &str, hz: &[f64], long_name: &str| {
-        let dimension = format!("{name}_mode");
-        let counted = "Mode, the lowest frequency first";
-        set.coordinate(numbered(&dimension, 1, hz.len(), counted))
-            .variable(variable(
-                name,
-                &[&dimension],
-                hz.to_vec(),
-                (long_name, "Hz"),
-            ))
+fn data(found: &Frequencies) -> Dataset {
+    let modes = |set: Dataset, mode: Quantity, quantity: Quantity, hz: &[f64]| {
+        set.coordinate(mode.numbered(1, hz.len()))
+            .variable(quantity.over(&[mode.name], hz.to_vec()))
     };
     let body = found.body_hz.unwrap_or(f64::NAN);
-    let moves = "Of those occupied, the one in which the first jumper moves most";
-    let mut set = about("Natural frequencies of a plate with people", &found.study);
-    set = modes(set, "plate", &found.plate_hz, "Transverse, empty plate");
-    set = modes(
+    let set = about("Natural frequencies of a plate with people", &found.study);
+    let set = modes(set, q::PLATE_MODE, q::PLATE_FREQUENCY, &found.plate_hz);
+    let set = modes(
         set,
-        "occupied",
+        q::OCCUPIED_MODE,
+        q::OCCUPIED_FREQUENCY,
         &found.occupied_hz,
-        "Transverse, people standing on the plate",
     );
-    set = modes(
+    let set = modes(
         set,
-        "in_plane",
+        q::IN_PLANE_MODE,
+        q::IN_PLANE_FREQUENCY,
         &found.in_plane_hz,
-        "In the plane of the plate",
     );
-    set.coordinate(jumpers(found.free_hz.len()))
-        .variable(variable(
-            "free",
-            &["jumper"],
-            found.free_hz.clone(),
-            ("Body on rigid ground", "Hz"),
-        ))
-        .variable(variable("body", &[], body, (moves, "Hz")))
-        .variable(variable("base", &[], found.base_hz, ("Base motion", "Hz")))
+    set.coordinate(q::JUMPER.numbered(0, found.free_hz.len()))
+        .variable(q::FREE_FREQUENCY.over(&["jumper"], found.free_hz.clone()))
+        .variable(q::BODY_FREQUENCY.is(body))
+        .variable(q::BASE.is(found.base_hz))
+        .table(Table::of_document(&[
+            "plate", "occupied", "in_plane", "free",
+        ]))
 }
 
 fn table(found: &Frequencies) -> String {

@@ -5,11 +5,13 @@
 //! found, [`Store`] where its parts go.
 
 mod about;
+mod answer;
 mod attractors;
 mod basins;
 mod citations;
 mod context;
 mod continuation;
+mod data;
 mod dataset;
 mod describe;
 mod destination;
@@ -26,23 +28,27 @@ mod per_jumper;
 mod pieces;
 mod plane;
 mod portrait;
+mod quantities;
 mod repeats;
 mod reproduce;
 mod request;
+mod shard;
 mod simulate;
 mod status;
 mod store;
 mod sweep;
-mod twin;
 mod words;
 
 pub use about::about;
+pub use answer::{Answer, Take, Told};
 pub use citations::{Citation, bibtex, citations};
 pub use context::{Context, Found, Keep, Place, Stage, Unwatched, Watch};
+pub use continuation::Labelled;
 pub use describe::{describe, warnings};
 pub use destination::Destination;
 pub use failure::Failure;
 pub use kept::{Kept, Rerun};
-pub use pieces::{Lack, Shard, ShardError, Share};
-pub use request::{Answer, Labelled, Request};
+pub use pieces::Share;
+pub use request::Request;
+pub use shard::{Lack, Shard, ShardError};
 pub use store::{Fill, Folder, Rows, Store};

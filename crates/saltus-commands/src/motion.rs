@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::per_jumper::{PerJumper, column};
 use crate::store::Store;
+use crate::words::phase;
 use saltus::model::{Contact, Model, Section};
 use saltus::study::TrajectorySwitch;
 use saltus_results::Value;
@@ -23,14 +24,6 @@ pub(super) struct SwitchPoint {
     pub(super) time: f64,
     pub(super) jumper: usize,
     pub(super) kind: &'static str,
-}
-
-/// Word for a contact state.
-pub(super) fn phase(contact: Contact) -> &'static str {
-    match contact {
-        Contact::Stance => "contact",
-        Contact::Flight => "flight",
-    }
 }
 
 /// Notes on the columns of [`header`].

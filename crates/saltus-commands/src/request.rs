@@ -1,16 +1,17 @@
 //! What can be asked of a study, and what every answer can tell.
 
+use crate::answer::Answer;
 use crate::context::Context;
+use crate::continuation::Labelled;
 use crate::failure::Failure;
-use crate::pieces::{Divided, Shard, Share};
+use crate::pieces::{Divided, Share};
+use crate::shard::Shard;
 use crate::store::Store;
 use crate::{
     attractors, basins, continuation, frequencies, lyapunov, map, orbit, reproduce, simulate, sweep,
 };
 use saltus_config::Study;
-use serde::{Deserialize, Serialize, Serializer};
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use serde::{Deserialize, Serialize};
 
 /// A question. What it is about stands in the study, but for what is said here.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -50,58 +51,6 @@ pub enum Request {
     },
 }
 
-/// An orbit of an earlier result.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Labelled {
-    /// Folder of the result.
-    #[serde(serialize_with = "readable")]
-    pub from: PathBuf,
-    /// Label of a special point, such as `PD1`.
-    pub at: String,
-}
-
-/// A path whose name is no text is written as far as it is one: a manifest must not fail for it.
-fn readable<S: Serializer>(path: &Path, to: S) -> Result<S::Ok, S::Error> {
-    to.collect_str(&path.display())
-}
-
-/// What was found.
-pub trait Answer: Send + Sync {
-    /// What it says to people.
-    fn summary(&self) -> String;
-
-    /// Writes the JSON document.
-    ///
-    /// # Errors
-    /// Those of `to`.
-    fn document(&self, to: &mut dyn Write) -> io::Result<()>;
-
-    /// Hands over everything else: texts, tables, figures, datasets.
-    ///
-    /// # Errors
-    /// [`Failure`] where the store refuses or a figure cannot be drawn.
-    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure>;
-
-    /// Why it is not all that was asked for, if so: a motion that ended early, as far as it came.
-    fn shortfall(&self) -> Option<Failure> {
-        None
-    }
-
-    /// The folder with pieces that were kept until the answer is stored, if there is one.
-    fn pieces(&self) -> Option<&Path> {
-        None
-    }
-
-    /// Removes the pieces: the answer is stored.
-    ///
-    /// # Errors
-    /// [`Failure::Results`] if they cannot be removed.
-    fn stored(&mut self) -> Result<(), Failure> {
-        Ok(())
-    }
-}
-
 impl Request {
     /// Name of the command; the JSON document has it too.
     pub fn name(&self) -> &'static str {
@@ -124,6 +73,14 @@ impl Request {
         match self {
             Self::Reproduce { .. } => "facts.json".to_owned(),
             other => format!("{}.json", other.name()),
+        }
+    }
+
+    /// Name of the file with the arrays.
+    pub fn dataset(&self) -> String {
+        match self {
+            Self::Reproduce { .. } => "fig2.nc".to_owned(),
+            other => format!("{}.nc", other.name()),
         }
     }
 
@@ -217,7 +174,10 @@ impl dyn Answer + '_ {
     /// # Errors
     /// [`Failure`] where the store refuses or a figure cannot be drawn.
     pub fn store(&self, request: &Request, store: &mut dyn Store) -> Result<(), Failure> {
-        store.put_text(&request.document(), &mut |file| self.document(file))?;
-        self.fill(store)
+        let data = self.data();
+        store.put_text(&request.document(), &mut |file| {
+            Answer::document(self, &data, file)
+        })?;
+        self.fill(store, &request.dataset(), data)
     }
 }

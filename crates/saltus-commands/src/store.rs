@@ -1,15 +1,11 @@
 //! Where the parts of an answer go: files of a folder, or memory.
 
-use crate::about::about;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::request::Request;
-use crate::twin::Twin;
 use saltus_config::Study;
 use saltus_results::{
-    CsvTable, Dataset, Figure, Manifest, ResultFolder, ResultsError, Value, shown,
+    CsvTable, Dataset, Figure, Manifest, ResultFolder, ResultsError, Value, csv, shown,
 };
-use serde::Serialize;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -50,7 +46,7 @@ pub trait Store {
     /// [`Failure`] if it cannot be drawn or kept.
     fn put_figure(&mut self, name: &str, figure: &Figure) -> Result<(), Failure>;
 
-    /// A dataset.
+    /// A dataset and its tables.
     ///
     /// # Errors
     /// [`Failure`] if it cannot be kept.
@@ -85,25 +81,19 @@ impl dyn Store + '_ {
     }
 }
 
-/// Writes a JSON document that ends in a newline.
-pub(crate) fn stream_json(to: &mut dyn Write, document: &impl Serialize) -> io::Result<()> {
-    serde_json::to_writer_pretty(&mut *to, document)?;
-    to.write_all(b"\n")
-}
-
 /// A folder in the making; dropped before [`Folder::commit`] it leaves no trace.
 #[derive(Debug)]
 pub struct Folder {
     inner: ResultFolder,
     stop: Arc<AtomicBool>,
-    parquet: bool,
 }
 
 impl Folder {
-    /// Prepares `dir` for what was asked and puts the resolved study in it. Done before a long computation too,
-    /// so that a folder that cannot be written is refused at once.
+    /// Prepares `dir` for an answer and puts the resolved study in it; `about` is what the manifest says of the answer,
+    /// as [`about`](crate::about()) gives it. Done before a long computation too, so that a folder that cannot be written
+    /// is refused at once.
     ///
-    /// Without a request the folder will hold the study alone, and takes the place of no answer: that may be
+    /// Without `about` the folder will hold the study alone, and takes the place of no answer: that may be
     /// hours of work.
     ///
     /// # Errors
@@ -111,39 +101,18 @@ impl Folder {
     /// in it and nothing was asked.
     pub fn stage(
         dir: &Path,
-        request: Option<&Request>,
+        about: Option<serde_json::Value>,
         study: &Study,
         context: &Context,
     ) -> Result<Self, Failure> {
         let mut inner = ResultFolder::stage(dir)?;
-        match request {
-            Some(request) => inner.about(about(request, study)),
+        match about {
+            Some(about) => inner.about(about),
             None => refuse_answer(dir)?,
         }
         inner.write("study.toml", study.to_toml())?;
         let stop = Arc::clone(&context.stop);
-        let parquet = false;
-        Ok(Self {
-            inner,
-            stop,
-            parquet,
-        })
-    }
-
-    /// Writes each table as a Parquet file too, beside the CSV.
-    ///
-    /// # Errors
-    /// [`Failure::Refused`] if this program was built without the feature `parquet`.
-    pub fn with_parquet(mut self) -> Result<Self, Failure> {
-        if !cfg!(feature = "parquet") {
-            return Err(Failure::refused(
-                "this saltus was built without Parquet files",
-                "`cargo install --path crates/saltus-cli --features parquet` builds it with them; in Python \
-                 `result.to_pandas().to_parquet(...)` writes them",
-            ));
-        }
-        self.parquet = true;
-        Ok(self)
+        Ok(Self { inner, stop })
     }
 
     /// Moves everything into place.
@@ -191,17 +160,14 @@ impl Store for Folder {
         rows: Rows,
     ) -> Result<(), Failure> {
         let header: Vec<&str> = header.iter().map(String::as_str).collect();
-        let mut twin = Twin::new(self.parquet, settings, &header);
         let fill = |file: &mut dyn Write| {
             let mut table = CsvTable::new(file, settings, &header).map_err(plain)?;
             for row in &mut *rows {
-                twin.row(&row).map_err(plain)?;
                 table.row(row).map_err(plain)?;
             }
             table.finish().map_err(plain).map(drop)
         };
-        self.inner.write_with(name, fill)?;
-        Ok(twin.write(name, &mut self.inner)?)
+        Ok(self.inner.write_with(name, fill)?)
     }
 
     fn put_figure(&mut self, name: &str, figure: &Figure) -> Result<(), Failure> {
@@ -212,6 +178,12 @@ impl Store for Folder {
     }
 
     fn put_dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), Failure> {
+        for table in dataset.tables().iter().filter(|table| table.is_file()) {
+            self.check()?;
+            let file = format!("{}.csv", table.name());
+            let fill = |to: &mut dyn Write| csv(&dataset, table, to).map(drop).map_err(plain);
+            self.inner.write_with(&file, fill)?;
+        }
         self.check()?;
         Ok(self.inner.write(name, dataset.to_bytes()?)?)
     }

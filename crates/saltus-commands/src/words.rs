@@ -1,7 +1,7 @@
 //! Words that several answers share.
 
 use crate::failure::Failure;
-use saltus::model::Model;
+use saltus::model::{Contact, Model};
 use saltus_config::{Parameter, Study};
 
 /// Refuses a key that asks for more Lyapunov exponents than there are; `zero` says what 0 means there.
@@ -39,4 +39,12 @@ pub(crate) fn capitalized(text: &str) -> String {
     letters.next().map_or(String::new(), |first| {
         first.to_uppercase().chain(letters).collect()
     })
+}
+
+/// Word for a contact state.
+pub(crate) fn phase(contact: Contact) -> &'static str {
+    match contact {
+        Contact::Stance => "contact",
+        Contact::Flight => "flight",
+    }
 }

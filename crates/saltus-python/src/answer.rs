@@ -9,11 +9,12 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 use saltus_commands::{
     Answer as Answered, Context, Destination, Failure, Fill, Folder, Found, Keep, Place, Request,
-    Rows, Store, bibtex, citations,
+    Rows, Store, Told, about, bibtex, citations,
 };
 use saltus_config::Study;
 use saltus_results::{
-    Attribute, Column, Columns, Dataset, Figure as Drawing, Values, Variable, write_file_atomically,
+    Attribute, Cells, Column, Columns, Dataset, Figure as Drawing, NamedColumn, Values, Variable,
+    write_file_atomically,
 };
 use std::borrow::Cow;
 use std::ffi::CString;
@@ -147,7 +148,6 @@ fn asked(
         request: &request,
         study: &study,
         context,
-        parquet: false,
     };
     // refused before a long computation
     out.map_or(Ok(()), |out| destination.try_out(out))?;
@@ -183,14 +183,14 @@ impl Answer {
 
     /// What it says to people.
     fn summary(&self) -> PyResult<String> {
-        sound(|| Ok(self.known.found.summary()))
+        sound(|| Ok(Told::summary(&*self.known.found)))
     }
 
     /// The JSON document.
     fn document(&self, py: Python<'_>) -> PyResult<String> {
         sound(|| {
             let mut text = Vec::new();
-            py.detach(|| self.known.found.document(&mut text))?;
+            py.detach(|| Told::document(&*self.known.found, &mut text))?;
             String::from_utf8(text).map_err(error::of_computation)
         })
     }
@@ -215,7 +215,9 @@ impl Answer {
     fn parts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         sound(|| {
             let mut memory = Memory::default();
-            py.detach(|| self.known.found.fill(&mut memory))
+            let found = &self.known.found;
+            let name = self.known.request.dataset();
+            py.detach(|| found.fill(&mut memory, &name, found.data()))
                 .map_err(|failure| error::of(&failure))?;
             memory.handed_over(py)
         })
@@ -230,7 +232,12 @@ impl Answer {
                 ..Context::default()
             };
             let save = || {
-                let mut folder = Folder::stage(&out, Some(&known.request), &known.study, &context)?;
+                let mut folder = Folder::stage(
+                    &out,
+                    Some(about(&known.request, &known.study)),
+                    &known.study,
+                    &context,
+                )?;
                 known.found.store(&known.request, &mut folder)?;
                 folder.commit().map(drop)
             };
@@ -265,6 +272,7 @@ impl Figure {
 #[derive(Default)]
 struct Memory {
     tables: Vec<(String, Columns)>,
+    views: Vec<(String, Vec<NamedColumn>)>,
     figures: Vec<(String, Drawing)>,
     datasets: Vec<(String, Dataset)>,
     texts: Vec<(String, Vec<u8>)>,
@@ -276,6 +284,9 @@ impl Memory {
         let (datasets, texts) = (PyDict::new(py), PyDict::new(py));
         for (name, columns) in self.tables {
             tables.set_item(name, table(py, columns)?)?;
+        }
+        for (name, columns) in self.views {
+            tables.set_item(name, view(py, columns)?)?;
         }
         for (name, drawing) in self.figures {
             figures.set_item(name, Figure { drawing })?;
@@ -321,6 +332,10 @@ impl Store for Memory {
     }
 
     fn put_dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), Failure> {
+        for table in dataset.tables().iter().filter(|table| table.is_file()) {
+            let columns = table.to_columns(&dataset)?;
+            self.views.push((format!("{}.csv", table.name()), columns));
+        }
         self.datasets.push((name.to_owned(), dataset));
         Ok(())
     }
@@ -342,6 +357,23 @@ fn table<'py>(py: Python<'py>, columns: Columns) -> PyResult<Bound<'py, PyTuple>
             other => return Err(error::of_computation(format!("{other:?}"))),
         };
         arrays.set_item(name, array)?;
+    }
+    PyTuple::new(py, [notes, arrays])
+}
+
+/// Notes on the columns, and the columns.
+fn view<'py>(py: Python<'py>, columns: Vec<NamedColumn>) -> PyResult<Bound<'py, PyTuple>> {
+    let (notes, arrays) = (PyDict::new(py), PyDict::new(py));
+    for column in columns {
+        let array = match column.cells {
+            Cells::F64(values) => values.into_pyarray(py).into_any(),
+            Cells::I64(values) => values.into_pyarray(py).into_any(),
+            Cells::Flags(values) => PyList::new(py, values)?.into_any(),
+            Cells::Text(values) => PyList::new(py, values)?.into_any(),
+            other => return Err(error::of_computation(format!("{other:?}"))),
+        };
+        notes.set_item(&column.title, column.note)?;
+        arrays.set_item(column.title, array)?;
     }
     PyTuple::new(py, [notes, arrays])
 }
@@ -405,7 +437,10 @@ fn array<'py>(
     )
 }
 
-fn attributes<'py>(py: Python<'py>, list: &[(String, Attribute)]) -> PyResult<Bound<'py, PyDict>> {
+fn attributes<'py, 'a>(
+    py: Python<'py>,
+    list: impl IntoIterator<Item = &'a (String, Attribute)>,
+) -> PyResult<Bound<'py, PyDict>> {
     let attributes = PyDict::new(py);
     for (name, value) in list {
         match value {

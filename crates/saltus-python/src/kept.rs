@@ -3,7 +3,7 @@
 use crate::error;
 use crate::running::{Board, Listener, aside, attended};
 use pyo3::prelude::*;
-use saltus_commands::{Answer, Context, Kept, bibtex};
+use saltus_commands::{Context, Kept, Told, bibtex};
 use std::path::PathBuf;
 use std::sync::Arc;
 

@@ -123,23 +123,6 @@ impl ResultFolder {
         self.write(name, dataset.to_bytes()?)
     }
 
-    /// Stages `table` as the Parquet file `name`.
-    ///
-    /// # Errors
-    /// As [`write`](Self::write).
-    #[cfg(feature = "parquet")]
-    pub fn write_parquet(
-        &mut self,
-        name: &str,
-        table: crate::ParquetTable,
-    ) -> Result<(), ResultsError> {
-        self.stage_file(name, |file| match table.finish(file) {
-            Ok(_) => Ok(()),
-            Err(ResultsError::Table { source }) => Err(source),
-            Err(error) => Err(io::Error::other(error)),
-        })
-    }
-
     /// Moves everything into place and returns the folder's path.
     ///
     /// A new folder appears in one step. In an existing one, files of the result that was there and which this one has

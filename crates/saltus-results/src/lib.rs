@@ -10,29 +10,34 @@
 //! - [`mod@compare`]: two result folders side by side, with the largest differences;
 //! - [`dataset`]: arrays over named axes as one NetCDF-4 file, for xarray and its like;
 //! - [`pieces`]: finished pieces of long work, kept so that it can be taken up again;
-//! - [`table`]: CSV that reads back to the same bits, and Markdown tables;
+//! - [`quantity`]: name, meaning and unit of a number, said once;
+//! - [`table`]: what of a dataset stands row by row, written by [`mod@csv`] and, as documents, by [`json`];
+//! - [`cells`]: CSV row by row, and Markdown tables;
 //! - [`columns`]: the same rows as typed columns in memory;
-//! - `parquet`: the same as Parquet files, behind the feature of that name;
 //! - [`page`]: a self-contained HTML page that shows figures, tables and facts without a network.
 
+pub mod cells;
 pub mod columns;
 pub mod compare;
+pub mod csv;
 pub mod dataset;
 pub mod error;
 pub mod figure;
 pub mod folder;
+pub mod json;
 pub mod manifest;
 pub mod ordinary;
 pub mod page;
-#[cfg(feature = "parquet")]
-pub mod parquet;
 pub mod pieces;
+pub mod quantity;
 pub mod shown;
 pub mod staging;
 pub mod table;
 
+pub use cells::{CsvTable, MarkdownTable, Value};
 pub use columns::{Column, Columns};
 pub use compare::{Comparison, compare};
+pub use csv::csv;
 pub use dataset::{Attribute, Dataset, Values, Variable};
 pub use error::ResultsError;
 pub use figure::{
@@ -40,10 +45,10 @@ pub use figure::{
     Curves, Figure, Grid, History, Panel, Portrait, Shares, ValueMap,
 };
 pub use folder::{ResultFolder, write_file_atomically};
+pub use json::Document;
 pub use manifest::{FileRecord, Manifest, Problem};
 pub use page::{Fact, FigureBlock, Image, Page, Verdict};
-#[cfg(feature = "parquet")]
-pub use parquet::ParquetTable;
 pub use pieces::{Damage, PieceStore, Seal, Survey};
+pub use quantity::Quantity;
 pub use staging::Staging;
-pub use table::{CsvTable, MarkdownTable, Value};
+pub use table::{Cells, NamedColumn, Table};

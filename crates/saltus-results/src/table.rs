@@ -1,271 +1,413 @@
-//! Tables: CSV whose numbers read back to the same bits, and Markdown for people.
+//! Tables: what of a dataset stands row by row in a file of cells, and as a list of records in a document.
+//!
+//! A table holds no numbers. It names axes, whose places are its rows, and variables, which are its columns.
+//!
+//! ```
+//! use saltus_results::{Dataset, Quantity, Table};
+//! # fn main() -> Result<(), saltus_results::ResultsError> {
+//! const RATIO: Quantity = Quantity::new("ratio", "Frequency ratio", "1");
+//! const PERIOD: Quantity = Quantity::new("period", "Period in forcing periods", "1");
+//! let dataset = Dataset::new("Periods")
+//!     .coordinate(RATIO.along(vec![0.9, 1.1]))
+//!     .variable(PERIOD.over(&["ratio"], vec![2, 0]).gap(0))
+//!     .table(Table::new("rows", &["ratio"]).columns(&["ratio", "period"]));
+//! let csv = saltus_results::csv(&dataset, &dataset.tables()[0], Vec::new())?;
+//! assert!(csv.ends_with(b"ratio,period\n0.9,2\n1.1,\n"));
+//! let json = serde_json::to_string(&saltus_results::Document::new(&dataset)).unwrap();
+//! assert_eq!(json, r#"{"rows":[{"ratio":0.9,"period":2},{"ratio":1.1,"period":null}]}"#);
+//! # Ok(())
+//! # }
+//! ```
 
 use crate::ResultsError;
-use std::fmt::Write as _;
-use std::io::{self, Write};
+use crate::dataset::{Cell, Dataset, Values, Variable};
 
-/// One cell of a table.
+/// One row for each place of some axes, one column for each of some variables.
 #[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub enum Value {
-    /// A number, written with as many digits as reading back needs and no more.
-    Number(f64),
-    /// A whole number.
-    Integer(i64),
-    /// A text.
-    Text(String),
-    /// Yes or no, written `true` or `false`.
-    Flag(bool),
-    /// Nothing.
-    Empty,
+pub struct Table {
+    name: String,
+    rows: Vec<String>,
+    columns: Vec<(String, String)>,
+    beside: Vec<(String, Vec<String>)>,
+    only: Option<String>,
+    wanted: Option<Vec<bool>>,
+    goes: Goes,
 }
 
-impl From<f64> for Value {
-    fn from(value: f64) -> Self {
-        Self::Number(value)
-    }
+/// In which formats a table is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Goes {
+    Everywhere,
+    Files,
+    Document,
 }
 
-impl From<i64> for Value {
-    fn from(value: i64) -> Self {
-        Self::Integer(value)
-    }
-}
-
-impl From<u32> for Value {
-    fn from(value: u32) -> Self {
-        Self::Integer(value.into())
-    }
-}
-
-impl From<bool> for Value {
-    fn from(value: bool) -> Self {
-        Self::Flag(value)
-    }
-}
-
-impl From<&str> for Value {
-    fn from(value: &str) -> Self {
-        Self::Text(value.to_owned())
-    }
-}
-
-impl From<String> for Value {
-    fn from(value: String) -> Self {
-        Self::Text(value)
-    }
-}
-
-impl<T: Into<Value>> From<Option<T>> for Value {
-    fn from(value: Option<T>) -> Self {
-        value.map_or(Self::Empty, Into::into)
-    }
-}
-
-impl std::fmt::Display for Value {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            // The debug form is the shortest that reads back, with an exponent where that is shorter.
-            Self::Number(value) => write!(f, "{value:?}"),
-            Self::Integer(value) => write!(f, "{value}"),
-            Self::Text(value) => f.write_str(value),
-            Self::Flag(value) => write!(f, "{value}"),
-            Self::Empty => Ok(()),
+impl Table {
+    /// A table named as its file, without ending, and as its list in the document. Its rows are the places of these
+    /// axes, the last of which varies fastest; without axes it has one row, and its columns are keys of the document
+    /// itself.
+    pub fn new(name: impl Into<String>, rows: &[&str]) -> Self {
+        Self {
+            name: name.into(),
+            rows: owned(rows),
+            columns: Vec::new(),
+            beside: Vec::new(),
+            only: None,
+            wanted: None,
+            goes: Goes::Everywhere,
         }
     }
-}
 
-/// A CSV table on its way into a file or any other writer.
-///
-/// First come the settings, each on a line that begins with `#`, then the header, then the rows.
-/// Readers skip the settings with `comment='#'`.
-///
-/// ```
-/// use saltus_results::CsvTable;
-/// # fn main() -> Result<(), saltus_results::ResultsError> {
-/// let mut table = CsvTable::new(Vec::new(), &[("mass (kg)", "75")], &["zeta", "phase"])?;
-/// table.row(["0.1".into(), "flight".into()])?;
-/// assert_eq!(table.finish()?, b"# mass (kg) = 75\nzeta,phase\n0.1,flight\n");
-/// # Ok(())
-/// # }
-/// ```
-pub struct CsvTable<W: Write> {
-    writer: csv::Writer<W>,
-    columns: usize,
-    rows: usize,
-}
-
-impl<W: Write> CsvTable<W> {
-    /// Writes the settings and the header.
-    ///
-    /// # Errors
-    /// [`ResultsError::Table`] if `writer` refuses.
-    pub fn new(
-        mut writer: W,
-        settings: &[(&str, &str)],
-        header: &[&str],
-    ) -> Result<Self, ResultsError> {
-        for (key, value) in settings {
-            // A line break inside a setting must not look like a row.
-            let line = format!("{key} = {value}").replace(['\r', '\n'], " ");
-            writeln!(writer, "# {line}").map_err(table_error)?;
-        }
-        let mut writer = csv::WriterBuilder::new().from_writer(writer);
-        writer.write_record(header).map_err(csv_error)?;
-        Ok(Self {
-            writer,
-            columns: header.len(),
-            rows: 0,
-        })
+    /// Keys of the document itself, which no file has.
+    pub fn of_document(variables: &[&str]) -> Self {
+        Self::new("", &[]).columns(variables).in_document()
     }
 
-    /// Appends a row.
-    ///
-    /// # Errors
-    /// [`ResultsError::RowLength`] if it does not fit the header, [`ResultsError::Table`] if the writer
-    /// refuses. Writing is buffered, so a full disk may show only in [`finish`](Self::finish).
-    pub fn row(&mut self, cells: impl IntoIterator<Item = Value>) -> Result<(), ResultsError> {
-        self.rows += 1;
-        let cells: Vec<String> = cells.into_iter().map(|cell| cell.to_string()).collect();
-        if cells.len() != self.columns {
-            return Err(ResultsError::RowLength {
-                row: self.rows,
-                cells: cells.len(),
-                columns: self.columns,
-            });
-        }
-        self.writer.write_record(&cells).map_err(csv_error)
-    }
-
-    /// Writes out what is still buffered and gives the writer back.
-    ///
-    /// # Errors
-    /// [`ResultsError::Table`] if not every byte could be written.
-    pub fn finish(self) -> Result<W, ResultsError> {
-        let mut inner = self
-            .writer
-            .into_inner()
-            .map_err(|error| table_error(error.into_error()))?;
-        inner.flush().map_err(table_error)?;
-        Ok(inner)
-    }
-}
-
-fn table_error(source: io::Error) -> ResultsError {
-    ResultsError::Table { source }
-}
-
-fn csv_error(error: csv::Error) -> ResultsError {
-    table_error(error.into())
-}
-
-/// A table in Markdown.
-#[derive(Clone, Debug)]
-pub struct MarkdownTable {
-    text: String,
-    columns: usize,
-}
-
-impl MarkdownTable {
-    /// A table with a header and no rows yet.
-    pub fn new(header: &[&str]) -> Self {
-        let mut table = Self {
-            text: String::new(),
-            columns: header.len(),
-        };
-        table.line(header.iter().map(|cell| (*cell).into()));
-        table.line(header.iter().map(|_| "---".into()));
-        table
-    }
-
-    /// Appends a row; missing cells stay empty and surplus ones are left out.
+    /// Adds columns named as their variables.
     #[must_use]
-    pub fn row(mut self, cells: impl IntoIterator<Item = Value>) -> Self {
-        self.line(cells.into_iter());
+    pub fn columns(self, variables: &[&str]) -> Self {
+        let add = |table: Self, name: &&str| table.titled(*name, *name);
+        variables.iter().fold(self, add)
+    }
+
+    /// Adds a column with another title.
+    #[must_use]
+    pub fn titled(mut self, title: impl Into<String>, variable: impl Into<String>) -> Self {
+        self.columns.push((title.into(), variable.into()));
         self
     }
 
-    fn line(&mut self, cells: impl Iterator<Item = Value>) {
-        let mut cells = cells.map(|cell| markdown(&cell.to_string()));
-        for _ in 0..self.columns {
-            // Writing to a string cannot fail.
-            let _ = write!(self.text, "| {} ", cells.next().unwrap_or_default());
+    /// Gives each place of `axis` a column of its own in files: the title with the suffix of the place. Neighbouring
+    /// columns over the same axis take turns: `z_0`, `v_0`, `z_1`, `v_1`. Documents have lists.
+    #[must_use]
+    pub fn beside(
+        mut self,
+        axis: impl Into<String>,
+        suffixes: impl IntoIterator<Item = String>,
+    ) -> Self {
+        self.beside
+            .push((axis.into(), suffixes.into_iter().collect()));
+        self
+    }
+
+    /// Leaves out the rows in which `variable` has no value.
+    #[must_use]
+    pub fn only_where(mut self, variable: impl Into<String>) -> Self {
+        self.only = Some(variable.into());
+        self
+    }
+
+    /// Leaves out all other rows: one answer for each place of the axes.
+    #[must_use]
+    pub fn only_rows(mut self, wanted: Vec<bool>) -> Self {
+        self.wanted = Some(wanted);
+        self
+    }
+
+    /// Leaves it out of documents.
+    #[must_use]
+    pub fn in_files(mut self) -> Self {
+        self.goes = Goes::Files;
+        self
+    }
+
+    /// Leaves it out of files.
+    #[must_use]
+    pub fn in_document(mut self) -> Self {
+        self.goes = Goes::Document;
+        self
+    }
+
+    /// Its name; empty if its columns are keys of the document itself.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Whether it has a file.
+    pub fn is_file(&self) -> bool {
+        self.goes != Goes::Document
+    }
+
+    /// Whether documents have it.
+    pub fn is_in_document(&self) -> bool {
+        self.goes != Goes::Files
+    }
+
+    /// The columns of its file: title, meaning with unit, and cells.
+    ///
+    /// # Errors
+    /// [`ResultsError::Dataset`] if it does not fit `dataset`.
+    pub fn to_columns(&self, dataset: &Dataset) -> Result<Vec<NamedColumn>, ResultsError> {
+        let rows = Rows::of(self, dataset)?;
+        let columns = rows.file_columns(self, dataset)?;
+        let named = |column: &Column<'_>| NamedColumn {
+            title: column.title.clone(),
+            note: note(column.variable),
+            cells: column.cells(rows.iter().map(|row| column.index(&row))),
+        };
+        Ok(columns.iter().map(named).collect())
+    }
+
+    /// Whether its axes and variables are part of `dataset`.
+    pub(crate) fn check(&self, dataset: &Dataset) -> Result<(), ResultsError> {
+        let rows = Rows::of(self, dataset)?;
+        if self.is_file() {
+            rows.file_columns(self, dataset)?;
         }
-        self.text.push_str("|\n");
+        rows.columns(self, dataset).map(drop)
     }
 }
 
-impl std::fmt::Display for MarkdownTable {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.text)
+/// A column of a file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedColumn {
+    /// Its title in the header.
+    pub title: String,
+    /// What it is, with its unit.
+    pub note: String,
+    /// Its cells.
+    pub cells: Cells,
+}
+
+/// The cells of a column, by the type of its variable.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Cells {
+    /// Numbers, NaN for empty cells; also whole numbers of which some are empty.
+    F64(Vec<f64>),
+    /// Whole numbers.
+    I64(Vec<i64>),
+    /// Yes or no.
+    Flags(Vec<bool>),
+    /// Texts, `None` for empty cells.
+    Text(Vec<Option<String>>),
+}
+
+/// A variable in a table.
+pub(crate) struct Column<'a> {
+    pub(crate) title: String,
+    pub(crate) variable: &'a Variable,
+    /// How far apart its values are along each axis of the rows; 0 where it has no such axis.
+    strides: Vec<usize>,
+    offset: usize,
+    /// Its axes that are no rows: name, length, stride.
+    pub(crate) inner: Vec<(&'a str, usize, usize)>,
+}
+
+impl<'a> Column<'a> {
+    fn new(
+        title: &str,
+        variable: &'a Variable,
+        rows: &[String],
+        dataset: &Dataset,
+    ) -> Result<Self, ResultsError> {
+        let mut strides = vec![0; rows.len()];
+        let mut inner = Vec::new();
+        let mut stride = 1;
+        for axis in variable.dimensions().iter().rev() {
+            let length = dataset
+                .length(axis)
+                .ok_or_else(|| missing(title, "dimension", axis))?;
+            match rows.iter().position(|row| row == axis) {
+                Some(place) => strides[place] = stride,
+                None => inner.insert(0, (axis.as_str(), length, stride)),
+            }
+            stride *= length;
+        }
+        Ok(Self {
+            title: title.to_owned(),
+            variable,
+            strides,
+            offset: 0,
+            inner,
+        })
+    }
+
+    /// Index of its value, or of the first of its list, in a row.
+    pub(crate) fn index(&self, row: &[usize]) -> usize {
+        let along = self.strides.iter().zip(row);
+        self.offset + along.map(|(stride, place)| stride * place).sum::<usize>()
+    }
+
+    fn cells(&self, indices: impl Iterator<Item = usize>) -> Cells {
+        let cells: Vec<Cell<'_>> = indices.map(|index| self.variable.cell(index)).collect();
+        let any_gap = cells.contains(&Cell::Gap);
+        let number = |cell: &Cell<'_>| match *cell {
+            Cell::Number(x) => x,
+            Cell::Whole(n) => n as f64,
+            _ => f64::NAN,
+        };
+        match self.variable.values() {
+            _ if self.variable.has_words() => Cells::Text(cells.iter().map(text).collect()),
+            Values::Text(_) => Cells::Text(cells.iter().map(text).collect()),
+            Values::Bool(_) => {
+                Cells::Flags(cells.iter().map(|cell| *cell == Cell::Flag(true)).collect())
+            }
+            Values::F64(_) | Values::F32(_) => Cells::F64(cells.iter().map(number).collect()),
+            _ if any_gap => Cells::F64(cells.iter().map(number).collect()),
+            _ => {
+                let whole = |cell: &Cell<'_>| match *cell {
+                    Cell::Whole(n) => n,
+                    _ => 0,
+                };
+                Cells::I64(cells.iter().map(whole).collect())
+            }
+        }
     }
 }
 
-/// A cell that stays one cell: no bars and no line breaks.
-fn markdown(cell: &str) -> String {
-    cell.replace('\\', "\\\\")
-        .replace('|', "\\|")
-        .replace("\r\n", " ")
-        .replace(['\r', '\n'], " ")
+fn text(cell: &Cell<'_>) -> Option<String> {
+    match cell {
+        Cell::Text(text) => Some((*text).to_owned()),
+        _ => None,
+    }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// The rows of a table.
+pub(crate) struct Rows<'a> {
+    axes: &'a [String],
+    lengths: Vec<usize>,
+    only: Option<Column<'a>>,
+    wanted: Option<&'a [bool]>,
+}
 
-    #[test]
-    fn numbers_read_back_to_the_same_bits() {
-        let numbers = [
-            0.1,
-            -0.0,
-            1.0 / 3.0,
-            1e300,
-            5e-324,
-            f64::MAX,
-            std::f64::consts::PI,
-            f64::NAN,
-            f64::NEG_INFINITY,
-        ];
-        let mut table = CsvTable::new(Vec::new(), &[("note", "a\nb")], &["x"]).expect("memory");
-        for x in numbers {
-            table.row([x.into()]).expect("memory");
+impl<'a> Rows<'a> {
+    pub(crate) fn of(table: &'a Table, dataset: &'a Dataset) -> Result<Self, ResultsError> {
+        let length = |axis: &String| {
+            let known = dataset.length(axis);
+            known.ok_or_else(|| missing(&table.name, "dimension", axis))
+        };
+        let lengths: Vec<usize> = table.rows.iter().map(length).collect::<Result<_, _>>()?;
+        let places: usize = lengths.iter().product();
+        if let Some(wanted) = table.wanted.as_ref().filter(|w| w.len() != places) {
+            let problem = format!("has {places} places, and {} are chosen among", wanted.len());
+            return Err(refuse(&table.name, problem));
         }
-        let bytes = table.finish().expect("memory");
-        let mut reader = csv::ReaderBuilder::new()
-            .comment(Some(b'#'))
-            .from_reader(&bytes[..]);
-        let read: Vec<f64> = reader
-            .records()
-            .map(|record| record.expect("row")[0].parse().expect("number"))
-            .collect();
-        assert_eq!(read.len(), numbers.len());
-        for (back, x) in read.iter().zip(numbers) {
-            assert!(
-                back.to_bits() == x.to_bits() || (back.is_nan() && x.is_nan()),
-                "{x:?} came back as {back:?}"
-            );
+        let only = table.only.as_ref().map(|name| {
+            let variable = shown(&table.name, dataset, name)?;
+            Column::new(name, variable, &table.rows, dataset)
+        });
+        Ok(Self {
+            axes: &table.rows,
+            lengths,
+            only: only.transpose()?,
+            wanted: table.wanted.as_deref(),
+        })
+    }
+
+    /// The places of each row on the axes.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = Vec<usize>> {
+        let places = 0..self.lengths.iter().product();
+        places
+            .filter(|&place| self.wanted.is_none_or(|wanted| wanted[place]))
+            .map(|place| self.row(place))
+            .filter(|row| {
+                let known =
+                    |column: &Column<'_>| column.variable.cell(column.index(row)) != Cell::Gap;
+                self.only.as_ref().is_none_or(known)
+            })
+    }
+
+    fn row(&self, mut place: usize) -> Vec<usize> {
+        let mut row = vec![0; self.lengths.len()];
+        for (index, length) in row.iter_mut().zip(&self.lengths).rev() {
+            (*index, place) = (place % length, place / length);
         }
+        row
     }
 
-    #[test]
-    fn texts_are_quoted_and_rows_counted() {
-        let mut table = CsvTable::new(Vec::new(), &[], &["a", "b"]).expect("memory");
-        table
-            .row(["x, \"y\"".into(), Value::Empty])
-            .expect("memory");
-        let error = table.row([1.0.into()]).expect_err("one cell of two");
-        assert_eq!(error.to_string(), "row 2 has 1 cells, the header has 2");
-        assert_eq!(table.finish().expect("memory"), b"a,b\n\"x, \"\"y\"\"\",\n");
+    /// A column for each variable of the table.
+    pub(crate) fn columns(
+        &self,
+        table: &Table,
+        dataset: &'a Dataset,
+    ) -> Result<Vec<Column<'a>>, ResultsError> {
+        let column = |(title, name): &(String, String)| {
+            let variable = shown(&table.name, dataset, name)?;
+            Column::new(title, variable, self.axes, dataset)
+        };
+        table.columns.iter().map(column).collect()
     }
 
-    #[test]
-    fn markdown_cells_stay_cells() {
-        let table = MarkdownTable::new(&["claim", "value"])
-            .row(["a|b\nc".into(), 2.5.into()])
-            .row([]);
-        assert_eq!(
-            table.to_string(),
-            "| claim | value |\n| --- | --- |\n| a\\|b c | 2.5 |\n|  |  |\n"
-        );
+    /// As files have them: places side by side.
+    pub(crate) fn file_columns(
+        &self,
+        table: &Table,
+        dataset: &'a Dataset,
+    ) -> Result<Vec<Column<'a>>, ResultsError> {
+        let mut all = Vec::new();
+        let mut columns = self.columns(table, dataset)?.into_iter().peekable();
+        while let Some(column) = columns.next() {
+            let axis = match column.inner.as_slice() {
+                [] => {
+                    all.push(column);
+                    continue;
+                }
+                [(axis, length, _)] => (*axis, *length),
+                _ => return Err(refuse(&table.name, several(&column))),
+            };
+            let beside = table.beside.iter().find(|(known, _)| known == axis.0);
+            let Some((_, suffixes)) = beside.filter(|beside| beside.1.len() == axis.1) else {
+                return Err(refuse(&table.name, several(&column)));
+            };
+            let mut group = vec![column];
+            let same = |next: &Column<'_>| next.inner.len() == 1 && next.inner[0].0 == axis.0;
+            while let Some(next) = columns.next_if(same) {
+                group.push(next);
+            }
+            for (place, suffix) in suffixes.iter().enumerate() {
+                all.extend(group.iter().map(|column| Column {
+                    title: format!("{}{suffix}", column.title),
+                    variable: column.variable,
+                    strides: column.strides.clone(),
+                    offset: place * column.inner[0].2,
+                    inner: Vec::new(),
+                }));
+            }
+        }
+        Ok(all)
     }
+}
+
+fn several(column: &Column<'_>) -> String {
+    let axes: Vec<&str> = column.inner.iter().map(|axis| axis.0).collect();
+    format!(
+        "has the column `{}` with several values in a row, over {}: make it a row, or give each place a column",
+        column.title,
+        axes.join(", ")
+    )
+}
+
+/// What a variable is, with its unit.
+pub(crate) fn note(variable: &Variable) -> String {
+    let (meaning, unit) = (variable.long_name_text(), variable.units_text());
+    match unit {
+        "" => meaning.to_owned(),
+        "1" => format!("{meaning} (-)"),
+        unit => format!("{meaning} ({unit})"),
+    }
+}
+
+fn shown<'a>(table: &str, dataset: &'a Dataset, name: &str) -> Result<&'a Variable, ResultsError> {
+    dataset
+        .shown(name)
+        .ok_or_else(|| missing(table, "variable", name))
+}
+
+fn missing(table: &str, what: &str, name: &str) -> ResultsError {
+    refuse(
+        table,
+        format!("shows the {what} `{name}`, which is not there"),
+    )
+}
+
+fn refuse(table: &str, problem: String) -> ResultsError {
+    ResultsError::Dataset {
+        name: format!("table {table}"),
+        problem,
+    }
+}
+
+fn owned(names: &[&str]) -> Vec<String> {
+    names.iter().map(|&name| name.to_owned()).collect()
 }

@@ -3,7 +3,7 @@
 use crate::common::underway::small;
 use crate::common::{Desk, files, json, program, saltus};
 use predicates::prelude::*;
-use predicates::str::{contains, starts_with};
+use predicates::str::contains;
 use saltus_results::manifest::sha256;
 use serde_json::{Value, json};
 use std::fs;
@@ -332,28 +332,4 @@ fn interrupted_it_leaves_nothing() {
     assert!(output.stdout.is_empty());
     assert_eq!(desk.names(), ["out", "paper.toml"]);
     assert!(files(&desk.path("out")) == before);
-}
-
-#[test]
-fn tables_become_parquet_files_too_where_the_program_can() {
-    let desk = Desk::new();
-    let study = desk.paper();
-    let out = desk.str("out");
-    let mut run = saltus(&["simulate", &study, "--out", &out, "--parquet", "--quiet"]);
-    let run = run.args(SHORT).assert();
-    if !cfg!(feature = "parquet") {
-        run.code(2).stderr(contains("--features parquet"));
-        assert!(!desk.path("out").exists());
-        return;
-    }
-    run.success();
-    for table in ["section", "switches", "history", "energy"] {
-        let bytes = fs::read(desk.path(&format!("out/{table}.parquet"))).unwrap();
-        assert!(bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"));
-        assert!(desk.path(&format!("out/{table}.csv")).is_file());
-    }
-    saltus(&["rerun", &out])
-        .assert()
-        .success()
-        .stdout(starts_with("`").and(contains("Same bits")));
 }

@@ -8,15 +8,16 @@ mod section;
 mod summary;
 mod tables;
 
+use crate::answer::{Answer, Take, stream_json};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::models::Models;
 use crate::plane::{self, Loss};
-use crate::request::Answer;
-use crate::store::{self, Store};
+use crate::store::Store;
 use report::Report;
 use saltus::study::{Control, Kind, Lineages, Row, Search, Starts};
 use saltus_config::{Parameter, Study};
+use saltus_results::Dataset;
 use std::io::{self, Write};
 use std::sync::atomic::Ordering;
 
@@ -162,18 +163,30 @@ fn refuse_if_all_lost(rows: &[Row]) -> Result<(), Failure> {
 }
 
 impl Answer for Run {
+    fn study(&self) -> &Study {
+        &self.study
+    }
+
+    fn data(&self) -> Dataset {
+        dataset::dataset(self, &Report::new(self))
+    }
+
+    fn draw(&self, _: Take) -> Result<(), Failure> {
+        Ok(())
+    }
+
     fn summary(&self) -> String {
         summary::text(self, &Report::new(self))
     }
 
-    fn document(&self, to: &mut dyn Write) -> io::Result<()> {
-        store::stream_json(to, &Report::new(self))
+    fn document(&self, _: &Dataset, to: &mut dyn Write) -> io::Result<()> {
+        stream_json(to, &Report::new(self))
     }
 
-    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
+    fn fill(&self, store: &mut dyn Store, name: &str, data: Dataset) -> Result<(), Failure> {
         let report = Report::new(self);
         tables::write(store, self, &report)?;
-        store.dataset("attractors.nc", dataset::dataset(self, &report))?;
+        store.put_dataset(name, data)?;
         store.figure("attractors", &figures::attractors(self, &report))
     }
 }

@@ -5,17 +5,17 @@ mod report;
 mod summary;
 mod tables;
 
+use crate::answer::{Answer, Take, stream_json};
 use crate::attractors;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::pieces::{self, Divided, Kept};
 use crate::plane::{self, Begun, Cell, Layers, Pixels, Plane};
-use crate::request::Answer;
-use crate::store::{self, Store};
+use crate::store::Store;
 use report::Report;
 use saltus::study::{Catalogue, Entry};
 use saltus_config::Study;
-use saltus_results::Variable;
+use saltus_results::{Dataset, Variable};
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -164,27 +164,40 @@ impl Basins {
 }
 
 impl Answer for Found {
+    fn study(&self) -> &Study {
+        &self.study
+    }
+
+    fn data(&self) -> Dataset {
+        let title = "Basins of attraction of a jumper on a plate";
+        let plane = &self.plane;
+        let over = [plane.y.variable(), plane.x.variable()];
+        let numbers = self.basins.attractor.clone();
+        let attractor = Variable::new("attractor", &[&over[0], &over[1]], numbers)
+            .long_name("Number of the attractor in the table attractors, 0 for none")
+            .units("1");
+        let layers = self.basins.layers.clone();
+        plane::dataset(title, &self.study, plane, layers).variable(attractor)
+    }
+
+    fn draw(&self, _: Take) -> Result<(), Failure> {
+        Ok(())
+    }
+
     fn summary(&self) -> String {
         summary::text(&self.plane, &self.report())
     }
 
-    fn document(&self, to: &mut dyn Write) -> io::Result<()> {
-        store::stream_json(to, &self.report())
+    fn document(&self, _: &Dataset, to: &mut dyn Write) -> io::Result<()> {
+        stream_json(to, &self.report())
     }
 
-    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
+    fn fill(&self, store: &mut dyn Store, name: &str, data: Dataset) -> Result<(), Failure> {
         let Self { plane, basins, .. } = self;
         tables::write(store, &self.study, &self.report())?;
         store.figure("basins", &figures::basins(plane, basins))?;
         store.figure("layers", &plane::layers_figure(plane, &basins.layers))?;
-        let title = "Basins of attraction of a jumper on a plate";
-        let over = [plane.y.variable(), plane.x.variable()];
-        let numbers = basins.attractor.clone();
-        let attractor = Variable::new("attractor", &[&over[0], &over[1]], numbers)
-            .long_name("Number of the attractor in the table attractors, 0 for none")
-            .units("1");
-        let dataset = plane::dataset(title, &self.study, plane, basins.layers.clone());
-        store.dataset("basins.nc", dataset.variable(attractor))
+        store.put_dataset(name, data)
     }
 
     fn pieces(&self) -> Option<&Path> {

@@ -11,12 +11,13 @@ mod summary;
 mod tables;
 mod view;
 
+use crate::answer::{Answer, Take, stream_json};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::models::Models;
-use crate::request::{Answer, Labelled};
-use crate::store::{self, Store};
+use crate::store::Store;
 use curves::Followed;
+pub use origin::Labelled;
 use origin::Origin;
 use question::Question;
 use report::Report;
@@ -25,6 +26,7 @@ use saltus::model::{Model, ModelError};
 use saltus::orbits::{Limb, NewtonOptions, Orbit, Stroboscopic, branches, find_orbit};
 use saltus::study::{Control, OrbitSearch, Pass, Sweep, SweepRow, orbit_of, stroboscopic, sweep};
 use saltus_config::Study;
+use saltus_results::Dataset;
 use std::io::{self, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -167,18 +169,30 @@ fn cloud(
 }
 
 impl Answer for Run {
+    fn study(&self) -> &Study {
+        &self.study
+    }
+
+    fn data(&self) -> Dataset {
+        dataset::dataset(self, &Report::new(self))
+    }
+
+    fn draw(&self, _: Take) -> Result<(), Failure> {
+        Ok(())
+    }
+
     fn summary(&self) -> String {
         summary::text(self, &Report::new(self))
     }
 
-    fn document(&self, to: &mut dyn Write) -> io::Result<()> {
-        store::stream_json(to, &Report::new(self))
+    fn document(&self, _: &Dataset, to: &mut dyn Write) -> io::Result<()> {
+        stream_json(to, &Report::new(self))
     }
 
-    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
+    fn fill(&self, store: &mut dyn Store, name: &str, data: Dataset) -> Result<(), Failure> {
         let report = Report::new(self);
         tables::write(store, self, &report)?;
-        store.dataset("continue.nc", dataset::dataset(self, &report))?;
+        store.put_dataset(name, data)?;
         figures::write(store, self)
     }
 }

@@ -7,8 +7,8 @@ use saltus::study::{place, point};
 use saltus_config::{Law, Parameter, Study};
 use saltus_results::shown::{self, printable};
 use saltus_results::{ResultsError, ordinary};
-use serde::Deserialize;
-use std::path::Path;
+use serde::{Deserialize, Serialize, Serializer};
+use std::path::{Path, PathBuf};
 
 /// Name of the document in the folder of a result.
 const DOCUMENT: &str = "continue.json";
@@ -19,15 +19,31 @@ const LARGEST: u64 = 256 << 20;
 /// Advice on what else to give.
 const FOLDER: &str = "--from takes a folder that `saltus continue --out` wrote";
 
+/// An orbit of an earlier result.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Labelled {
+    /// Folder of the result.
+    #[serde(serialize_with = "readable")]
+    pub from: PathBuf,
+    /// Label of a special point, such as `PD1`.
+    pub at: String,
+}
+
+/// A path whose name is no text is written as far as it is one: a manifest must not fail for it.
+fn readable<S: Serializer>(path: &Path, to: S) -> Result<S::Ok, S::Error> {
+    to.collect_str(&path.display())
+}
+
 /// What a restart needs of the document.
 #[derive(Deserialize)]
 struct Document {
     parameter: String,
-    special_points: Vec<Labelled>,
+    special_points: Vec<SpecialPoint>,
 }
 
 #[derive(Deserialize)]
-struct Labelled {
+struct SpecialPoint {
     label: String,
     kind: String,
     orbit_value: f64,

@@ -11,9 +11,9 @@ use std::f64::consts::TAU;
 /// A dataset that says where it comes from.
 pub(crate) fn about(title: &str, study: &Study) -> Dataset {
     Dataset::new(title)
-        .attribute("source", format!("saltus {}", env!("CARGO_PKG_VERSION")))
-        .attribute("study", study.to_toml())
-        .attribute("study_sha256", study.hash())
+        .header("source", format!("saltus {}", env!("CARGO_PKG_VERSION")))
+        .header("study", study.to_toml())
+        .header("study_sha256", study.hash())
 }
 
 /// A variable with what a reader needs to know of it.

@@ -1,7 +1,8 @@
 //! A motion as arrays, for the datasets of several commands: section, time history, switches.
 
 use super::{numbered, variable, wholes, words};
-use crate::motion::{SwitchPoint, phase};
+use crate::motion::SwitchPoint;
+use crate::words::phase;
 use saltus::model::{Model, Section};
 use saltus::study::History;
 use saltus_results::{Dataset, Variable};
@@ -25,7 +26,7 @@ pub(crate) fn dimensions(dataset: Dataset, model: &Model) -> Dataset {
     };
     let term = numbered("term", 0, terms.len(), "Transverse term of the plate");
     dataset
-        .attribute("coordinates", "m n")
+        .header("coordinates", "m n")
         .coordinate(jumpers(setup.jumpers.len()))
         .coordinate(term)
         .variable(half_waves("m", wholes(terms.iter().map(|w| w.m)), "x"))

@@ -2,11 +2,11 @@
 
 use super::Kept;
 use crate::about::{about, solves};
+use crate::answer::{Answer, Told, stream_json};
 use crate::context::Context;
 use crate::destination::Destination;
 use crate::failure::Failure;
-use crate::request::{Answer, Request};
-use crate::store::{Store, stream_json};
+use crate::request::Request;
 use saltus_results::shown::{path, printable};
 use saltus_results::{Comparison, Staging, compare};
 use serde::Serialize;
@@ -86,7 +86,6 @@ impl Kept {
             request,
             study: &study,
             context,
-            parquet: self.has_parquet(),
         };
         destination.try_out(dir)?;
         let answer = request.ask(&study, context)?;
@@ -104,12 +103,6 @@ impl Kept {
             version_of_result: self.manifest.version.clone(),
             version: env!("CARGO_PKG_VERSION"),
         })
-    }
-
-    /// Whether the tables were written as Parquet files too: nothing else in the manifest says so.
-    fn has_parquet(&self) -> bool {
-        let mut files = self.manifest.files.iter();
-        files.any(|file| file.name.ends_with(".parquet"))
     }
 
     fn origin_is_there(&self) -> Result<(), Failure> {
@@ -182,7 +175,7 @@ fn beside(folder: &Path) -> Result<Staging, Failure> {
     })
 }
 
-impl Answer for Rerun {
+impl Told for Rerun {
     fn summary(&self) -> String {
         let Self {
             version_of_result: then,
@@ -213,12 +206,11 @@ impl Answer for Rerun {
     fn document(&self, to: &mut dyn Write) -> io::Result<()> {
         stream_json(to, self)
     }
+}
 
-    fn fill(&self, _: &mut dyn Store) -> Result<(), Failure> {
-        Ok(())
-    }
-
-    fn shortfall(&self) -> Option<Failure> {
+impl Rerun {
+    /// Why the result is not what it was, if so.
+    pub fn shortfall(&self) -> Option<Failure> {
         let message = format!("computed again, `{}` is not the same bits", self.result);
         (!self.identical).then(|| Failure::computation(message))
     }

@@ -1,6 +1,6 @@
 //! The figure of convergence.
 
-use super::Run;
+use super::Found;
 use super::summary::with_error;
 use crate::words::setting;
 use saltus::orbits::{Exponent, Running};
@@ -10,7 +10,7 @@ use saltus_results::{Axis, Curves, Figure};
 const SHOWN: usize = 7;
 
 /// The exponents from the first periods of the record, over how many these are.
-pub(super) fn convergence(run: &Run, convergence: &[Running]) -> Figure {
+pub(super) fn convergence(found: &Found) -> Figure {
     // without an error a mean of few periods says nothing, but sets the scale
     let known = |running: &&Running| {
         running
@@ -18,12 +18,12 @@ pub(super) fn convergence(run: &Run, convergence: &[Running]) -> Figure {
             .iter()
             .all(|e| e.standard_error.is_finite())
     };
-    let known: Vec<&Running> = convergence.iter().filter(known).collect();
+    let known: Vec<&Running> = found.convergence.iter().filter(known).collect();
     let periods: Vec<f64> = known
         .iter()
         .map(|running| running.iterates as f64)
         .collect();
-    let (all, replicas) = (run.how.exponents, run.how.replicas);
+    let (all, replicas) = (found.how.exponents, found.how.replicas);
     let which = match all {
         _ if all > SHOWN => format!(" (the largest {SHOWN} of {all})"),
         _ => String::new(),
@@ -31,7 +31,7 @@ pub(super) fn convergence(run: &Run, convergence: &[Running]) -> Figure {
     let curves = Curves::new(
         format!(
             "Lyapunov exponents{which}: {}",
-            setting(&run.study, &run.model)
+            setting(&found.study, &found.model)
         ),
         Axis::new(format!(
             "Forcing periods of each of {replicas} replicas (-)"
@@ -39,7 +39,7 @@ pub(super) fn convergence(run: &Run, convergence: &[Running]) -> Figure {
         .logarithmic(),
         Axis::new("Mean growth per forcing period (-)"),
     );
-    let last = run.growth.exponents();
+    let last = found.growth.exponents();
     let curves = last
         .iter()
         .take(SHOWN)

@@ -1,35 +1,33 @@
 //! `saltus lyapunov`: how fast neighbours of the long-term motion part.
 
-mod dataset;
+mod data;
 mod figures;
-mod report;
 mod summary;
-mod tables;
 mod words;
 
+use crate::answer::{Answer, Take};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::repeats;
-use crate::request::Answer;
 use crate::status;
-use crate::store::{self, Store};
-use report::Report;
 use saltus::hybrid::{Point, Status};
 use saltus::model::Model;
-use saltus::orbits::{Criteria, Recurrence, Verdict, judge};
+use saltus::orbits::{Criteria, Recurrence, Running, Verdict, judge};
 use saltus::study::{Control, Growth, Measurement, StudyError, lyapunov, settle, simulate};
 use saltus_config::Study;
-use std::io::{self, Write};
+use saltus_results::Dataset;
 
 /// Forcing periods in which a repetition is looked for; those of up to half as many are seen.
 const SEEN: u64 = 128;
 
 /// What was found for a study.
-struct Run {
+struct Found {
     study: Study,
     model: Model,
     how: Measurement,
     growth: Growth,
+    /// The exponents from the first periods of the record, over how many these are.
+    convergence: Vec<Running>,
     verdict: Verdict,
 }
 
@@ -66,7 +64,7 @@ fn measure(
     how: Measurement,
     control: &Control,
     context: &Context,
-) -> Result<Run, Failure> {
+) -> Result<Found, Failure> {
     let start = model.start(study.start.z, study.start.v);
     let until = how.transient + how.periods;
     let work = || {
@@ -95,10 +93,11 @@ fn measure(
         ..Criteria::default()
     };
     let verdict = judge(&growth.spectrum, recurrence, &criteria);
-    Ok(Run {
+    Ok(Found {
         study: study.clone(),
         model,
         how,
+        convergence: growth.spectrum.convergence(),
         growth,
         verdict,
     })
@@ -130,21 +129,21 @@ fn recurrence(
     }))
 }
 
-impl Answer for Run {
+impl Answer for Found {
+    fn study(&self) -> &Study {
+        &self.study
+    }
+
+    fn data(&self) -> Dataset {
+        data::data(self)
+    }
+
     fn summary(&self) -> String {
-        summary::text(self, &Report::new(self))
+        summary::text(self)
     }
 
-    fn document(&self, to: &mut dyn Write) -> io::Result<()> {
-        store::stream_json(to, &Report::new(self))
-    }
-
-    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
-        let convergence = self.growth.spectrum.convergence();
-        tables::write(store, self, &convergence)?;
-        let report = Report::new(self);
-        store.dataset("lyapunov.nc", dataset::dataset(self, &report, &convergence))?;
-        store.figure("convergence", &figures::convergence(self, &convergence))
+    fn draw(&self, take: Take) -> Result<(), Failure> {
+        take("convergence", &figures::convergence(self))
     }
 
     fn shortfall(&self) -> Option<Failure> {
@@ -152,7 +151,7 @@ impl Answer for Run {
         short.then(|| {
             Failure::computation(format!(
                 "not every replica was run to its end: {}",
-                Report::new(self).status_text
+                status::text(&self.growth.status, None)
             ))
         })
     }

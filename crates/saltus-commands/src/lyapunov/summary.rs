@@ -1,60 +1,62 @@
 //! What `saltus lyapunov` says to people.
 
-use super::report::{Rate, Report};
-use super::{Run, words};
+use super::{Found, words};
+use crate::status;
 use saltus::hybrid::Status;
+use saltus::orbits::{Exponent, Nature};
+use std::f64::consts::TAU;
 use std::fmt::Write;
 
-/// A sum that is further from the divergence than this (per period) is told as wrong: far above what
-/// tolerances leave, far below any exponent of interest.
+/// A sum that is further from the divergence than this (per period) is reported as wrong: far above what tolerances
+/// leave, far below any exponent of interest.
 const AGREE: f64 = 1e-6;
 
-pub(super) fn text(run: &Run, report: &Report) -> String {
+pub(super) fn text(found: &Found) -> String {
     let mut text = String::new();
     let mut line = |name: &str, what: String| {
         // writing to a string cannot fail
         let _ = writeln!(text, "{name:<12}{what}");
     };
-    if run.growth.status != Status::Completed {
-        line("status", report.status_text.clone());
+    let (growth, nature, scales) = (&found.growth, found.verdict.nature, found.model.scales());
+    if growth.status != Status::Completed {
+        line("status", status::text(&growth.status, None));
     }
-    let sure = words::percent(report.nature.confidence);
+    let sure = words::percent(found.verdict.confidence);
     line(
         "motion",
-        match report.nature.name {
-            "undecided" => "undecided".to_owned(),
-            name => format!("{name}, with a confidence of {sure}"),
+        match nature {
+            Nature::Undecided(_) => "undecided".to_owned(),
+            _ => format!("{}, with a confidence of {sure}", words::name(nature)),
         },
     );
-    line("", report.nature.text.clone());
-    line(
-        "base",
-        format!("{:.4} Hz, period {:.6} s", report.base_hz, report.period_s),
-    );
-    line("record", record(report));
+    line("", words::meaning(nature));
+    let (hertz, period) = (scales.omega / TAU, scales.period());
+    line("base", format!("{hertz:.4} Hz, period {period:.6} s"));
+    line("record", record(found));
     line(
         "exponents",
-        match report.from {
+        match found.source() {
             "orbit" => "of the multipliers of the orbit that the motion has come to".to_owned(),
             _ => "means of the record, with one standard error; nearly twice that holds 95 %"
                 .to_owned(),
         },
     );
-    line("dimension", dimension(report));
-    line("sum", sum(report));
-    text.push_str(&spectrum(report));
+    line("dimension", dimension(found));
+    line("sum", sum(found));
+    text.push_str(&spectrum(found));
     text
 }
 
-fn record(report: &Report) -> String {
+fn record(found: &Found) -> String {
+    let (how, measured) = (&found.how, found.growth.spectrum.iterates());
     format!(
-        "{} x {} forcing periods after {} left out, {} measured",
-        report.replicas, report.periods, report.transient, report.periods_measured
+        "{} x {} forcing periods after {} left out, {measured} measured",
+        how.replicas, how.periods, how.transient
     )
 }
 
-fn dimension(report: &Report) -> String {
-    report.kaplan_yorke.as_ref().map_or_else(
+fn dimension(found: &Found) -> String {
+    found.growth.spectrum.kaplan_yorke().map_or_else(
         || "unknown: more exponents or a longer record are needed".to_owned(),
         |found| {
             let value = with_error(found.value, found.standard_error, "+-");
@@ -63,35 +65,34 @@ fn dimension(report: &Report) -> String {
     )
 }
 
-fn sum(report: &Report) -> String {
-    let sum = with_error(report.sum.per_period, report.sum.standard_error, "+-");
-    let divergence = &report.divergence;
-    let check = match divergence.difference {
-        None => format!("not to be compared, {}", divergence.reason),
+fn sum(found: &Found) -> String {
+    let sum = found.growth.sum();
+    let check = match found.difference() {
+        None => format!("not to be compared, {}", found.check().1),
         Some(off) if off.abs() <= AGREE => format!("the same to {:.0e}, as it must be", off.abs()),
         Some(off) => format!("wrong by {off:.1e}: a smaller solver.tolerance may help"),
     };
     format!(
-        "{sum} per period; mean divergence {:.6}: {check}",
-        divergence.per_period
+        "{} per period; mean divergence {:.6}: {check}",
+        with_error(sum.per_iterate, sum.standard_error, "+-"),
+        found.growth.divergence()
     )
 }
 
-fn spectrum(report: &Report) -> String {
+fn spectrum(found: &Found) -> String {
     let mut text = format!("\n{:<12}{:<31}per second\n", "exponent", "per period");
-    for (index, rate) in report.exponents.iter().enumerate() {
-        let line = format!("{:>8}{}", index + 1, columns(rate));
+    let period = found.model.scales().period();
+    for (index, exponent) in found.growth.exponents().iter().enumerate() {
+        let line = format!("{:>8}{}", index + 1, columns(exponent, period));
         let _ = writeln!(text, "{}", line.trim_end());
     }
     text
 }
 
 /// Both units, with decimal points below each other.
-fn columns(rate: &Rate) -> String {
-    let pairs = [
-        (rate.per_period, rate.standard_error),
-        (rate.per_second, rate.per_second_error),
-    ];
+fn columns(exponent: &Exponent, period: f64) -> String {
+    let (value, error) = (exponent.per_iterate, exponent.standard_error);
+    let pairs = [(value, error), (value / period, error / period)];
     let column = |(value, error)| {
         let [value, error] = rounded(value, error);
         let (whole, decimals) = value.split_at(value.find('.').unwrap_or(value.len()));

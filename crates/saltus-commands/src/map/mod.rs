@@ -4,15 +4,16 @@ mod figures;
 mod report;
 mod summary;
 
+use crate::answer::{Answer, Take, stream_json};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::models::Models;
 use crate::pieces::{self, Divided, Kept};
 use crate::plane::{self, Begun, Cell, Layers, Pixels, Plane};
-use crate::request::Answer;
-use crate::store::{self, Store};
+use crate::store::Store;
 use report::Report;
 use saltus_config::Study;
+use saltus_results::Dataset;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -94,21 +95,32 @@ fn question(study: &Study) -> Result<Plane, Failure> {
 }
 
 impl Answer for Map {
+    fn study(&self) -> &Study {
+        &self.study
+    }
+
+    fn data(&self) -> Dataset {
+        let title = "Attractors of a jumper on a plate over two parameters";
+        plane::dataset(title, &self.study, &self.plane, self.layers.clone())
+    }
+
+    fn draw(&self, _: Take) -> Result<(), Failure> {
+        Ok(())
+    }
+
     fn summary(&self) -> String {
         summary::text(&self.plane, &self.report())
     }
 
-    fn document(&self, to: &mut dyn Write) -> io::Result<()> {
-        store::stream_json(to, &self.report())
+    fn document(&self, _: &Dataset, to: &mut dyn Write) -> io::Result<()> {
+        stream_json(to, &self.report())
     }
 
-    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
+    fn fill(&self, store: &mut dyn Store, name: &str, data: Dataset) -> Result<(), Failure> {
         let Self { plane, layers, .. } = self;
         store.figure("map", &figures::periods(plane, layers))?;
         store.figure("layers", &plane::layers_figure(plane, layers))?;
-        let title = "Attractors of a jumper on a plate over two parameters";
-        let dataset = plane::dataset(title, &self.study, plane, layers.clone());
-        store.dataset("map.nc", dataset)
+        store.put_dataset(name, data)
     }
 
     fn pieces(&self) -> Option<&Path> {

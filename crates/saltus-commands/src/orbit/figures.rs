@@ -1,9 +1,9 @@
 //! The figures of an orbit: its phase portrait and its multipliers.
 
-use super::Run;
+use super::Found;
+use crate::answer::Take;
 use crate::failure::Failure;
 use crate::portrait::{self, Motion};
-use crate::store::Store;
 use crate::words::setting;
 use saltus_results::{Axis, Figure, Portrait};
 use std::f64::consts::TAU;
@@ -11,35 +11,35 @@ use std::f64::consts::TAU;
 /// Width and height (px) of the complex plane.
 const SIDE: f64 = 460.0;
 
-pub(super) fn write(folder: &mut dyn Store, run: &Run) -> Result<(), Failure> {
-    let jumpers = run.study.jumper.len();
+pub(super) fn draw(found: &Found, take: Take) -> Result<(), Failure> {
+    let jumpers = found.jumpers();
     if jumpers > 0 {
         let motion = Motion {
-            title: title(run, "Orbit"),
-            states: &run.portrait.history.states,
-            section: &run.portrait.section,
+            title: title(found, "Orbit"),
+            states: &found.portrait.history.states,
+            section: &found.portrait.section,
             seen: "At cos Ωt = 1".to_owned(),
         };
-        folder.figure("portrait", &portrait::portraits(&motion, jumpers))?;
+        take("portrait", &portrait::portraits(&motion, jumpers))?;
     }
-    folder.figure("multipliers", &multipliers(run))
+    take("multipliers", &multipliers(found))
 }
 
-fn title(run: &Run, what: &str) -> String {
-    let period = run.orbit.period();
-    let setting = setting(&run.study, &run.model);
+fn title(found: &Found, what: &str) -> String {
+    let period = found.orbit.period();
+    let setting = setting(&found.study, &found.model);
     format!("{what}, period {period}: {setting}")
 }
 
 /// The complex plane, its axes equal so that the circle is one.
-fn multipliers(run: &Run) -> Figure {
-    let all = &run.orbit.multipliers;
+fn multipliers(found: &Found) -> Figure {
+    let all = &found.orbit.multipliers;
     let far = all.iter().map(|m| m.modulus()).fold(1.0, f64::max) * 1.12;
     let axis = |label: &str| Axis::new(label).range(-far, far);
     let circle = (0..=360).map(|i| (f64::from(i) / 360.0 * TAU).sin_cos());
     let (sin, cos): (Vec<f64>, Vec<f64>) = circle.unzip();
     let mut plane = Portrait::new(
-        title(run, "Multipliers"),
+        title(found, "Multipliers"),
         axis("Real part (-)"),
         axis("Imaginary part (-)"),
     )

@@ -1,24 +1,20 @@
 //! `saltus orbit`: the periodic orbit near the long-term motion.
 
-mod dataset;
+mod data;
 mod figures;
-mod report;
 mod summary;
-mod tables;
 
+use crate::answer::{Answer, Take};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::request::Answer;
-use crate::store::{self, Store};
-use report::Report;
 use saltus::model::Model;
 use saltus::orbits::Orbit;
 use saltus::study::{Control, OrbitSearch, Portrait, orbit, portrait};
 use saltus_config::{OrbitTable, Study};
-use std::io::{self, Write};
+use saltus_results::Dataset;
 
 /// An orbit with what it is an orbit of.
-struct Run {
+struct Found {
     study: Study,
     model: Model,
     orbit: Orbit,
@@ -27,12 +23,12 @@ struct Run {
 
 pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
     let control = context.control(study);
-    let run = context.count("searching", &control.done, || find(study, &control))?;
+    let found = context.count("searching", &control.done, || find(study, &control))?;
     context.check()?;
-    Ok(Box::new(run))
+    Ok(Box::new(found))
 }
 
-fn find(study: &Study, control: &Control) -> Result<Run, Failure> {
+fn find(study: &Study, control: &Control) -> Result<Found, Failure> {
     let model = study.setup().model()?;
     model.check_step(&control.options)?;
     let start = model.start(study.start.z, study.start.v);
@@ -40,7 +36,7 @@ fn find(study: &Study, control: &Control) -> Result<Run, Failure> {
         Failure::from(error)
             .advise("[start], orbit.transient and orbit.period say where the search begins")
     })?;
-    Ok(Run {
+    Ok(Found {
         study: study.clone(),
         portrait: portrait(&model, &orbit, control)?,
         orbit,
@@ -57,19 +53,20 @@ fn search(table: &OrbitTable) -> OrbitSearch {
     }
 }
 
-impl Answer for Run {
+impl Answer for Found {
+    fn study(&self) -> &Study {
+        &self.study
+    }
+
+    fn data(&self) -> Dataset {
+        data::data(self)
+    }
+
     fn summary(&self) -> String {
-        summary::text(self, &Report::new(self))
+        summary::text(self)
     }
 
-    fn document(&self, to: &mut dyn Write) -> io::Result<()> {
-        store::stream_json(to, &Report::new(self))
-    }
-
-    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
-        let report = Report::new(self);
-        tables::write(store, self, &report)?;
-        store.dataset("orbit.nc", dataset::dataset(self, &report))?;
-        figures::write(store, self)
+    fn draw(&self, take: Take) -> Result<(), Failure> {
+        figures::draw(self, take)
     }
 }

@@ -1,67 +1,69 @@
 //! What `saltus orbit` says to people.
 
-use super::Run;
-use super::report::Report;
-use crate::motion::phase;
-use crate::per_jumper::{PerJumper, column};
+use super::Found;
+use crate::per_jumper::column;
+use crate::words::phase;
+use saltus::orbits::{Multiplier, Orbit, Stability};
+use std::f64::consts::TAU;
 use std::fmt::Write;
 
 /// Multipliers, points, and of each the bodies shown at most.
 const SHOWN: usize = 8;
 
-pub(super) fn text(run: &Run, report: &Report) -> String {
+pub(super) fn text(found: &Found) -> String {
     let mut text = String::new();
     let mut line = |name: &str, what: String| {
         // writing to a string cannot fail
         let _ = writeln!(text, "{name:<12}{what}");
     };
-    line("orbit", period(report));
-    line("stability", stability(report));
+    let (orbit, seen, scales) = (&found.orbit, &found.portrait, found.model.scales());
     line(
-        "base",
-        format!("{:.4} Hz, period {:.6} s", report.base_hz, report.period_s),
+        "orbit",
+        period(orbit.period(), found.study.orbit.period as usize),
     );
+    line("stability", stability(orbit));
+    let (hertz, seconds) = (scales.omega / TAU, scales.period());
+    line("base", format!("{hertz:.4} Hz, period {seconds:.6} s"));
     line(
         "residual",
         format!(
             "{:.1e}, steps of Newton's method: {}",
-            report.residual, report.iterations
+            orbit.residual, orbit.iterations
         ),
     );
-    if !run.study.jumper.is_empty() {
-        let contact = each(&report.contact_ratio, |r| format!("{:.4}", 100.0 * r));
+    if found.jumpers() > 0 {
+        let contact = each(&seen.contact_ratio, |r| format!("{:.4}", 100.0 * r));
         line("contact", format!("{contact} % of the time"));
-        let peak = each(&report.peak_prf, |f| format!("{f:.6}"));
+        let peak = each(&seen.peak_reaction, |f| format!("{f:.6}"));
         line("peak force", format!("{peak} body weights"));
-        let switches = report.sequence.as_str();
+        let switches = found.sequence();
         let none = switches.chars().all(|c| c == '|');
-        line("switches", if none { "none" } else { switches }.to_owned());
-        let phases = |all: &&[f64]| match all {
+        line("switches", if none { "none".to_owned() } else { switches });
+        let phases = |all: &Vec<f64>| match all.as_slice() {
             [] => "never".to_owned(),
             all => list(all.iter().map(|p| format!("{p:.4}"))),
         };
-        let landings = each(&report.landing_phases, phases);
-        line("lands at", format!("Omega t = {landings} (rad)"));
+        let touch_downs = each(&seen.landing_phases, phases);
+        line("lands at", format!("Omega t = {touch_downs} (rad)"));
     }
-    let of = match report.multipliers.len() {
+    let of = match orbit.multipliers.len() {
         all @ ..=SHOWN => format!("{all}"),
         all => format!("the first {SHOWN} of {all}"),
     };
     let _ = writeln!(text, "\nmultipliers, by falling modulus ({of})");
-    for [re, im] in report.multipliers.iter().take(SHOWN) {
+    for Multiplier { re, im, .. } in orbit.multipliers.iter().take(SHOWN) {
         let modulus = re.hypot(*im);
         let _ = writeln!(text, "{re:>14.8} {im:>+14.8} i   modulus {modulus:.8}");
     }
-    text + &points(run)
+    text + &points(found)
 }
 
-fn period(report: &Report) -> String {
-    let found = periods(report.period);
-    match report.asked {
-        Some(asked) if asked != report.period => {
-            format!("closes after {found}; {asked} were asked for, and it is this one repeated")
-        }
-        _ => format!("closes after {found}"),
+fn period(found: usize, asked: usize) -> String {
+    let closes = format!("closes after {}", periods(found));
+    match asked {
+        0 => closes,
+        asked if asked == found => closes,
+        asked => format!("{closes}; {asked} were asked for, and it is this one repeated"),
     }
 }
 
@@ -72,16 +74,16 @@ fn periods(count: usize) -> String {
     }
 }
 
-fn stability(report: &Report) -> String {
-    let verdict = match (report.stability, report.outside) {
-        ("unstable", 1) => "unstable: 1 multiplier outside the unit circle".to_owned(),
-        ("unstable", n) => format!("unstable: {n} multipliers outside the unit circle"),
-        ("neutral", _) => {
+fn stability(orbit: &Orbit) -> String {
+    let verdict = match (orbit.stability(), orbit.outside()) {
+        (Stability::Unstable, 1) => "unstable: 1 multiplier outside the unit circle".to_owned(),
+        (Stability::Unstable, n) => format!("unstable: {n} multipliers outside the unit circle"),
+        (Stability::Neutral, _) => {
             "neutral: a multiplier is on the unit circle to rounding, and none outside".to_owned()
         }
-        (verdict, _) => verdict.to_owned(),
+        (stability, _) => stability.name().to_owned(),
     };
-    if report.in_family {
+    if orbit.in_family() {
         verdict
             + "; a multiplier is 1: other orbits lie beside this one (a quantity is conserved, or a fold is here)"
     } else {
@@ -89,8 +91,8 @@ fn stability(report: &Report) -> String {
     }
 }
 
-fn each<T>(values: &PerJumper<T>, show: impl Fn(&T) -> String) -> String {
-    let shown: Vec<String> = values.as_slice().iter().map(show).collect();
+fn each<T>(values: &[T], show: impl Fn(&T) -> String) -> String {
+    let shown: Vec<String> = values.iter().map(show).collect();
     shown.join("; ")
 }
 
@@ -98,8 +100,8 @@ fn list(values: impl Iterator<Item = String>) -> String {
     values.collect::<Vec<_>>().join(", ")
 }
 
-fn points(run: &Run) -> String {
-    let jumpers = run.study.jumper.len();
+fn points(found: &Found) -> String {
+    let jumpers = found.jumpers();
     let shown = jumpers.min(SHOWN);
     if shown == 0 {
         return String::new();
@@ -110,7 +112,7 @@ fn points(run: &Run) -> String {
         let (z, v, phase) = (name("z/eta"), name("v"), name("phase"));
         let _ = write!(text, " {z:>14} {v:>14} {phase:>9}");
     }
-    for (index, point) in run.portrait.section.iter().take(SHOWN).enumerate() {
+    for (index, point) in found.portrait.section.iter().take(SHOWN).enumerate() {
         let _ = write!(text, "\n{index:>8}");
         for i in 0..shown {
             let (z, v) = (point.z[i], point.v[i]);

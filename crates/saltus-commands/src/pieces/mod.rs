@@ -9,20 +9,19 @@
 mod codec;
 mod cut;
 mod fingerprint;
-mod lack;
 mod share;
 mod shelf;
 mod work;
 
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::shard::Shard;
 use cut::Cut;
 use saltus::study::Control;
 use saltus_config::Study;
 
 pub(crate) use codec::{Reader, Writer};
-pub use lack::Lack;
-pub use share::{Shard, ShardError, Share};
+pub use share::Share;
 pub(crate) use shelf::Kept;
 pub(crate) use work::run;
 

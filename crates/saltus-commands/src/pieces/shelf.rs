@@ -1,10 +1,11 @@
 //! Where pieces are kept, and what is there.
 
+use super::Job;
 use super::cut::Cut;
 use super::fingerprint::Fingerprint;
-use super::{Job, Lack, Shard};
 use crate::context::{Context, Found, Keep, Place};
 use crate::failure::Failure;
+use crate::shard::{Lack, Shard};
 use saltus_results::pieces::{MANIFEST, pieces_beside};
 use saltus_results::shown::path;
 use saltus_results::{PieceStore, ResultsError, Seal};

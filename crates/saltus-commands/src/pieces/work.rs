@@ -6,9 +6,10 @@
 use super::cut::Cut;
 use super::fingerprint::Fingerprint;
 use super::shelf::{Kept, Shelf, Stock};
-use super::{Job, Reader, Shard, Share, Writer};
+use super::{Job, Reader, Share, Writer};
 use crate::context::{Context, Found, Keep, Place};
 use crate::failure::Failure;
+use crate::shard::Shard;
 use saltus::study::Control;
 use saltus_results::pieces::pieces_beside;
 use saltus_results::{PieceStore, ResultsError};

@@ -17,14 +17,17 @@ use saltus::study::paper::{
 };
 use saltus::study::{Control, StudyError};
 
+use crate::answer::{Answer, Take, stream_json};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::request::Answer;
-use crate::store::{self, Store};
+use crate::store::Store;
 use report::Report;
+use saltus_config::Study;
+use saltus_results::Dataset;
 
 /// Everything computed.
 struct Results {
+    study: Study,
     quick: bool,
     effort: Effort,
     diagrams: Vec<Diagram>,
@@ -41,16 +44,29 @@ pub(crate) fn ask(quick: bool, context: &Context) -> Result<Box<dyn Answer>, Fai
 }
 
 impl Answer for Results {
+    fn study(&self) -> &Study {
+        &self.study
+    }
+
+    fn data(&self) -> Dataset {
+        dataset::fig2(self).unwrap_or_else(|_| Dataset::new("Fig. 2"))
+    }
+
+    fn draw(&self, _: Take) -> Result<(), Failure> {
+        Ok(())
+    }
+
     fn summary(&self) -> String {
         Report::new(self).text()
     }
 
-    fn document(&self, to: &mut dyn Write) -> io::Result<()> {
-        store::stream_json(to, &Report::new(self))
+    fn document(&self, _: &Dataset, to: &mut dyn Write) -> io::Result<()> {
+        stream_json(to, &Report::new(self))
     }
 
-    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
-        page::write(store, self, &Report::new(self))
+    fn fill(&self, store: &mut dyn Store, name: &str, data: Dataset) -> Result<(), Failure> {
+        page::write(store, self, &Report::new(self))?;
+        store.put_dataset(name, data)
     }
 }
 
@@ -100,6 +116,7 @@ fn compute(quick: bool, context: &Context) -> Result<Results, Failure> {
         paper::compare_inertia(&effort, &control)
     })?;
     Ok(Results {
+        study: Study::paper(),
         quick,
         effort,
         diagrams,

@@ -5,7 +5,7 @@ use saltus::study::paper::Verdict;
 use saltus_results::{Fact, Figure, FigureBlock, Image, Page, Verdict as Badge};
 
 use super::report::{QUICK, RegimeRow, Report};
-use super::{Results, branches, dataset, figures, tables};
+use super::{Results, branches, figures, tables};
 use crate::failure::Failure;
 use crate::store::Store;
 
@@ -16,7 +16,6 @@ pub(super) fn write(
     report: &Report,
 ) -> Result<(), Failure> {
     tables::write(folder, results, report)?;
-    folder.dataset("fig2.nc", dataset::fig2(results)?)?;
     folder.text("facts.md", &report.markdown())?;
     let mut album = Album {
         folder,

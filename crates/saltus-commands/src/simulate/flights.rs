@@ -1,11 +1,11 @@
 //! When was a jumper in the air?
 
-use super::Run;
+use super::Found;
 use saltus::model::Contact;
 
 /// Intervals (s) of jumper `index` in flight between `from` and the end of the run.
-pub(super) fn of(run: &Run, index: usize, from: f64) -> Vec<(f64, f64)> {
-    let trajectory = &run.trajectory;
+pub(super) fn of(found: &Found, index: usize, from: f64) -> Vec<(f64, f64)> {
+    let trajectory = &found.trajectory;
     let entered = trajectory
         .switches
         .iter()

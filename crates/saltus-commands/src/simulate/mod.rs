@@ -1,22 +1,19 @@
 //! `saltus simulate`: the motion, once per forcing period.
 
-mod dataset;
+mod data;
 mod figures;
 mod flights;
-mod report;
 mod summary;
-mod tables;
 
+use crate::answer::{Answer, Take};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::request::Answer;
-use crate::store::{self, Store};
-use report::Report;
+use crate::status;
 use saltus::hybrid::Status;
 use saltus::model::Model;
 use saltus::study::Trajectory;
 use saltus_config::Study;
-use std::io::{self, Write};
+use saltus_results::Dataset;
 
 /// Periods of the time history at most: what a figure can show, and little memory however long the run.
 const HISTORY: u32 = 20;
@@ -25,7 +22,7 @@ const HISTORY: u32 = 20;
 const POINTS: u32 = 400;
 
 /// A run with what it ran.
-struct Run {
+struct Found {
     study: Study,
     model: Model,
     trajectory: Trajectory,
@@ -35,7 +32,7 @@ pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, F
     Ok(Box::new(integrate(study, context)?))
 }
 
-fn integrate(study: &Study, context: &Context) -> Result<Run, Failure> {
+fn integrate(study: &Study, context: &Context) -> Result<Found, Failure> {
     let control = context.control(study);
     let model = study.setup().model_with_energy()?;
     let start = model.start(study.start.z, study.start.v);
@@ -47,27 +44,28 @@ fn integrate(study: &Study, context: &Context) -> Result<Run, Failure> {
     };
     let trajectory = context.follow(periods.into(), "periods", &control.done, work)?;
     context.check()?;
-    Ok(Run {
+    Ok(Found {
         study: study.clone(),
         model,
         trajectory,
     })
 }
 
-impl Answer for Run {
+impl Answer for Found {
+    fn study(&self) -> &Study {
+        &self.study
+    }
+
+    fn data(&self) -> Dataset {
+        data::data(self)
+    }
+
     fn summary(&self) -> String {
-        summary::text(self, &Report::new(self))
+        summary::text(self)
     }
 
-    fn document(&self, to: &mut dyn Write) -> io::Result<()> {
-        store::stream_json(to, &Report::new(self))
-    }
-
-    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
-        let report = Report::new(self);
-        tables::write(store, self, &report)?;
-        store.dataset("simulate.nc", dataset::dataset(self, &report))?;
-        figures::write(store, self)
+    fn draw(&self, take: Take) -> Result<(), Failure> {
+        figures::draw(self, take)
     }
 
     fn shortfall(&self) -> Option<Failure> {
@@ -78,13 +76,13 @@ impl Answer for Run {
                 "the run ended in forcing period {} of {}: {}",
                 end.periods + 1,
                 self.study.simulate.periods,
-                Report::new(self).status_text
+                status::text(&end.status, Some(self.model.scales().omega))
             ))
         })
     }
 }
 
-impl Run {
+impl Found {
     fn jumpers(&self) -> usize {
         self.study.jumper.len()
     }

@@ -1,65 +1,67 @@
 //! What `saltus simulate` says to people.
 
-use super::Run;
-use super::report::Report;
-use crate::per_jumper::{PerJumper, column};
-use crate::{motion::phase, repeats};
+use super::Found;
+use crate::data::motion::kind;
+use crate::per_jumper::column;
+use crate::words::phase;
+use crate::{repeats, status};
+use std::f64::consts::TAU;
 use std::fmt::Write;
 
 /// Section points, and of each the bodies and amplitudes, shown at most.
 const LAST: usize = 5;
 
-pub(super) fn text(run: &Run, report: &Report) -> String {
+pub(super) fn text(found: &Found) -> String {
     let mut text = String::new();
     let mut line = |name: &str, what: String| {
         // writing to a string cannot fail
         let _ = writeln!(text, "{name:<12}{what}");
     };
-    line("status", report.status_text.clone());
-    line(
-        "base",
-        format!("{:.4} Hz, period {:.6} s", report.base_hz, report.period_s),
-    );
+    let (end, scales) = (&found.trajectory.end, found.model.scales());
+    line("status", status::text(&end.status, Some(scales.omega)));
+    let (hertz, seconds) = (scales.omega / TAU, scales.period());
+    line("base", format!("{hertz:.4} Hz, period {seconds:.6} s"));
     line(
         "run",
-        format!("{} periods, {} steps", report.periods, report.steps),
+        format!("{} periods, {} steps", end.periods, end.steps),
     );
-    if run.jumpers() > 0 {
-        let percent = |ratio: &f64| format!("{:.2}", 100.0 * ratio);
-        let force = |peak: &Option<f64>| peak.map_or("-".to_owned(), |f| format!("{f:.4}"));
-        let contact = each(&report.contact_ratio, percent);
+    if found.jumpers() > 0 {
+        let contact = each(&found.contact_ratio(), |r| format!("{:.2}", 100.0 * r));
         line("contact", format!("{contact} % of the time"));
-        let peak = each(&report.peak_prf, force);
+        let force = |peak: f64| match peak {
+            _ if peak.is_nan() => "-".to_owned(),
+            _ => format!("{peak:.4}"),
+        };
+        let peak = each(&found.peak_reaction(), force);
         line("peak force", format!("{peak} body weights"));
-        line("switches", switches(report));
-        if run.trajectory.section.len() > 3 {
-            line("recurrence", repeats(run));
+        line("switches", switches(found));
+        if found.trajectory.section.len() > 3 {
+            line("recurrence", repeats(found));
         }
     }
-    let energy = &report.energy;
+    let energy = found.largest();
     line(
         "energy",
         format!(
             "largest residual of a period {:.1e} J of {:.4} J turned over ({:.1e})",
-            energy.max_residual, energy.max_turnover, energy.max_relative_residual
+            energy.residual,
+            energy.turnover,
+            energy.relative()
         ),
     );
-    text.push_str(&last_points(run));
+    text.push_str(&last_points(found));
     text
 }
 
-fn each<T>(values: &PerJumper<T>, show: impl Fn(&T) -> String) -> String {
-    values
-        .as_slice()
-        .iter()
-        .map(show)
-        .collect::<Vec<_>>()
-        .join(", ")
+fn each(values: &[f64], show: impl Fn(f64) -> String) -> String {
+    let shown: Vec<String> = values.iter().map(|&value| show(value)).collect();
+    shown.join(", ")
 }
 
-fn switches(report: &Report) -> String {
-    let count = |kind| report.switches.iter().filter(|s| s.kind == kind).count();
-    let named = ["take-off", "touch-down"].map(|kind| format!("{} {kind}s", count(kind)));
+fn switches(found: &Found) -> String {
+    let all = &found.trajectory.switches;
+    let count = |word| all.iter().filter(|switch| kind(switch) == word).count();
+    let named = ["take-off", "touch-down"].map(|word| format!("{} {word}s", count(word)));
     let grazed = match count("tangency") {
         0 => String::new(),
         n => format!(", {n} tangencies"),
@@ -67,30 +69,30 @@ fn switches(report: &Report) -> String {
     named.join(", ") + &grazed
 }
 
-/// A count over the later half of the run, which the start has mostly left behind.
-fn repeats(run: &Run) -> String {
-    let section = &run.trajectory.section;
+/// A count over the later half of the found, which the start has mostly left behind.
+fn repeats(found: &Found) -> String {
+    let section = &found.trajectory.section;
     let late = &section[section.len() / 2..];
     let samples = |jumper: usize| {
         let z = late.iter().map(|point| point.z[jumper]).collect();
         let v = late.iter().map(|point| point.v[jumper]).collect();
         (z, v)
     };
-    match repeats::every(run.jumpers(), late.len(), samples) {
+    match repeats::every(found.jumpers(), late.len(), samples) {
         Some(1) => "the later half repeats every forcing period to 1e-6".to_owned(),
         Some(n) => format!("the later half repeats every {n} forcing periods to 1e-6"),
         None => format!("none to 1e-6 within {} forcing periods", late.len() / 2),
     }
 }
 
-fn last_points(run: &Run) -> String {
-    let section = &run.trajectory.section;
+fn last_points(found: &Found) -> String {
+    let section = &found.trajectory.section;
     let first = section.len().saturating_sub(LAST);
-    let terms = &run.model.setup().plate.modes.w;
+    let terms = &found.model.setup().plate.modes.w;
     let mut text = format!("\n{:>8}", "period");
-    let shown = run.jumpers().min(LAST);
+    let shown = found.jumpers().min(LAST);
     for i in 0..shown {
-        let name = |name: &str| column(name, i, run.jumpers());
+        let name = |name: &str| column(name, i, found.jumpers());
         let _ = write!(
             text,
             " {:>12} {:>12} {:>9}",

@@ -7,13 +7,13 @@ mod report;
 mod summary;
 mod tables;
 
+use crate::answer::{Answer, Take, stream_json};
 use crate::context::{Context, Found};
 use crate::failure::Failure;
 use crate::models::Models;
 use crate::pieces::{self, Divided, Kept};
-use crate::request::Answer;
 use crate::status;
-use crate::store::{self, Store};
+use crate::store::Store;
 use job::Restarts;
 use report::Report;
 use saltus::hybrid::Status;
@@ -21,6 +21,7 @@ use saltus::model::ModelError;
 use saltus::orbits::Exponent;
 use saltus::study::{Control, Label, Pass, StudyError, Sweep, SweepRow};
 use saltus_config::{Direction, Parameter, Study, SweepTable};
+use saltus_results::Dataset;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -270,18 +271,30 @@ fn completed(row: &SweepRow) -> bool {
 }
 
 impl Answer for Run {
+    fn study(&self) -> &Study {
+        &self.study
+    }
+
+    fn data(&self) -> Dataset {
+        dataset::dataset(self, &Report::new(self))
+    }
+
+    fn draw(&self, _: Take) -> Result<(), Failure> {
+        Ok(())
+    }
+
     fn summary(&self) -> String {
         summary::text(self, &Report::new(self))
     }
 
-    fn document(&self, to: &mut dyn Write) -> io::Result<()> {
-        store::stream_json(to, &Report::new(self))
+    fn document(&self, _: &Dataset, to: &mut dyn Write) -> io::Result<()> {
+        stream_json(to, &Report::new(self))
     }
 
-    fn fill(&self, store: &mut dyn Store) -> Result<(), Failure> {
+    fn fill(&self, store: &mut dyn Store, name: &str, data: Dataset) -> Result<(), Failure> {
         let report = Report::new(self);
         tables::write(store, self, &report)?;
-        store.dataset("sweep.nc", dataset::dataset(self, &report))?;
+        store.put_dataset(name, data)?;
         store.figure("bifurcation", &figures::bifurcation(self))?;
         if self.table.exponents > 0 {
             store.figure("exponents", &figures::exponents(self, &report))?;

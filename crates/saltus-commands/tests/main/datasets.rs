@@ -62,7 +62,9 @@ fn answer(request: &Request, study: &Study) -> (Dataset, BTreeMap<String, Column
     let context = Context::default();
     let mut memory = Memory::default();
     let answer = request.ask(study, &context).unwrap();
-    answer.fill(&mut memory).unwrap();
+    answer
+        .fill(&mut memory, &request.dataset(), answer.data())
+        .unwrap();
     let [(name, dataset)] = &memory.datasets[..] else {
         panic!("{} datasets", memory.datasets.len());
     };

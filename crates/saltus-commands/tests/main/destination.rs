@@ -18,7 +18,6 @@ fn stored(home: &std::path::Path, spoil: impl FnOnce(&std::path::Path)) -> Resul
         request: &request,
         study: &study,
         context: &context,
-        parquet: false,
     };
     let out = home.join("out");
     destination.try_out(&out).unwrap();

@@ -1,6 +1,8 @@
 //! Pieces in memory: handed out as bytes, verified, put together to the bits of one run.
 
-use saltus_commands::{Answer, Context, Failure, Folder, Found, Keep, Place, Request, Shard};
+use saltus_commands::{
+    Answer, Context, Failure, Folder, Found, Keep, Place, Request, Shard, about,
+};
 use saltus_config::Study;
 use saltus_results::pieces::pieces_beside;
 use std::collections::BTreeMap;
@@ -57,7 +59,13 @@ fn context(pieces: &Pieces, found: Found) -> Context<'static> {
 fn files(request: &Request, study: &Study, answer: &dyn Answer) -> BTreeMap<String, Vec<u8>> {
     let home = tempfile::tempdir().unwrap();
     let out = home.path().join("out");
-    let mut folder = Folder::stage(&out, Some(request), study, &Context::default()).unwrap();
+    let mut folder = Folder::stage(
+        &out,
+        Some(about(request, study)),
+        study,
+        &Context::default(),
+    )
+    .unwrap();
     answer.store(request, &mut folder).unwrap();
     folder.commit().unwrap();
     let entries = fs::read_dir(out).unwrap().map(|entry| {

@@ -31,7 +31,7 @@ pub(super) fn check(dataset: &Dataset) -> Result<(), ResultsError> {
             return Err(refuse(name, "is a dimension twice: use two names"));
         }
     }
-    check_attributes(&dataset.attributes)?;
+    check_attributes(dataset.attributes())?;
     for (index, variable) in dataset.variables.iter().enumerate() {
         check_name(&variable.name)?;
         if dataset.variables[..index]
@@ -43,6 +43,12 @@ pub(super) fn check(dataset: &Dataset) -> Result<(), ResultsError> {
         check_attributes(&variable.attributes)?;
         check_shape(variable, dataset)?;
         check_codes(variable)?;
+    }
+    for column in &dataset.columns {
+        check_shape(column, dataset)?;
+    }
+    for table in &dataset.tables {
+        table.check(dataset)?;
     }
     Ok(())
 }
@@ -57,7 +63,9 @@ fn check_name(name: &str) -> Result<(), ResultsError> {
     Ok(())
 }
 
-fn check_attributes(attributes: &[(String, Attribute)]) -> Result<(), ResultsError> {
+fn check_attributes<'a>(
+    attributes: impl IntoIterator<Item = &'a (String, Attribute)>,
+) -> Result<(), ResultsError> {
     for (name, value) in attributes {
         check_name(name)?;
         if RESERVED.contains(&name.as_str()) {

@@ -29,7 +29,7 @@ const SHORT_TEXT: usize = 60_000;
 pub(super) fn encode(dataset: Dataset) -> Result<Vec<u8>, ResultsError> {
     let scales = Scales::of(&dataset);
     let mut builder = Hdf5Builder::new();
-    for (name, value) in &dataset.attributes {
+    for (name, value) in dataset.attributes() {
         builder = builder.attribute(attribute(name, value).map_err(refused(name))?);
     }
     for scale in scales.list.iter().filter(|scale| !scale.coordinate) {
@@ -144,6 +144,7 @@ fn array(variable: Variable, scales: &Scales) -> Result<DatasetBuilder, Error> {
         attributes,
         flags,
         fill,
+        ..
     } = variable;
     let (flag_codes, words): (Vec<i32>, Vec<String>) = flags.into_iter().unzip();
     let codes = Codes {

@@ -27,14 +27,20 @@
 mod check;
 mod file;
 
-use crate::ResultsError;
+use crate::{ResultsError, Table};
 
-/// Arrays over named dimensions, on their way into a file.
+/// Arrays over named dimensions, and the tables that show them row by row.
 #[derive(Clone, Debug)]
 pub struct Dataset {
     dimensions: Vec<(String, usize)>,
     variables: Vec<Variable>,
+    /// Arrays that tables alone show.
+    columns: Vec<Variable>,
+    /// Attributes of files of arrays alone.
+    header: Vec<(String, Attribute)>,
     attributes: Vec<(String, Attribute)>,
+    tables: Vec<Table>,
+    ragged: Vec<String>,
 }
 
 /// One array of a [`Dataset`] with its attributes.
@@ -46,6 +52,8 @@ pub struct Variable {
     attributes: Vec<(String, Attribute)>,
     flags: Vec<(i32, String)>,
     fill: Option<i32>,
+    words: &'static [&'static str],
+    gap: Option<i32>,
 }
 
 /// The values of a [`Variable`], in rows: the last dimension varies fastest.
@@ -71,6 +79,17 @@ pub enum Values {
     Text(Vec<String>),
 }
 
+/// One value, as tables and documents show it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Cell<'a> {
+    /// No value: an empty cell, or null.
+    Gap,
+    Number(f64),
+    Whole(i64),
+    Flag(bool),
+    Text(&'a str),
+}
+
 /// The value of an attribute.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -91,11 +110,23 @@ impl Dataset {
         let empty = Self {
             dimensions: Vec::new(),
             variables: Vec::new(),
+            columns: Vec::new(),
+            header: Vec::new(),
             attributes: Vec::new(),
+            tables: Vec::new(),
+            ragged: Vec::new(),
         };
         empty
-            .attribute("Conventions", "CF-1.11")
-            .attribute("title", title.into())
+            .header("Conventions", "CF-1.11")
+            .header("title", title.into())
+    }
+
+    /// Says where files of arrays come from, as their `source`. A document has a head of its own, so it does not repeat
+    /// this.
+    #[must_use]
+    pub fn header(mut self, name: impl Into<String>, value: impl Into<Attribute>) -> Self {
+        set(&mut self.header, name.into(), value.into());
+        self
     }
 
     /// Says something about the whole dataset, such as its `source`, `history` or settings. The value may
@@ -127,6 +158,28 @@ impl Dataset {
     #[must_use]
     pub fn variable(mut self, variable: Variable) -> Self {
         self.variables.push(variable);
+        self
+    }
+
+    /// Adds an array that tables alone show: what a variable holds, told in another way.
+    #[must_use]
+    pub fn column(mut self, variable: Variable) -> Self {
+        self.columns.push(variable);
+        self
+    }
+
+    /// Adds a table of what is, or will be, part of the dataset.
+    #[must_use]
+    pub fn table(mut self, table: Table) -> Self {
+        self.tables.push(table);
+        self
+    }
+
+    /// Declares that lists along this dimension have lengths of their own: a document cuts them behind their last known
+    /// value.
+    #[must_use]
+    pub fn ragged(mut self, dimension: impl Into<String>) -> Self {
+        self.ragged.push(dimension.into());
         self
     }
 
@@ -168,9 +221,43 @@ impl Dataset {
         self.dimensions.iter().any(|known| known.0 == name) && self.get(name).is_some()
     }
 
-    /// Names and values of the attributes of the whole dataset.
-    pub fn attributes(&self) -> &[(String, Attribute)] {
+    /// Names and values of the attributes of the whole dataset: the header, then the others.
+    pub fn attributes(&self) -> impl Iterator<Item = &(String, Attribute)> {
+        self.header.iter().chain(&self.attributes)
+    }
+
+    /// Attributes that documents tell too.
+    pub(crate) fn told(&self) -> &[(String, Attribute)] {
         &self.attributes
+    }
+
+    /// A text of the header.
+    pub(crate) fn head(&self, name: &str) -> &str {
+        match self.header.iter().find(|known| known.0 == name) {
+            Some((_, Attribute::Text(text))) => text,
+            _ => "",
+        }
+    }
+
+    /// The tables.
+    pub fn tables(&self) -> &[Table] {
+        &self.tables
+    }
+
+    /// An array that tables may show: a variable, or a column of theirs alone.
+    pub(crate) fn shown(&self, name: &str) -> Option<&Variable> {
+        let columns = self.columns.iter().find(|known| known.name == name);
+        columns.or_else(|| self.get(name))
+    }
+
+    /// Length of a dimension.
+    pub(crate) fn length(&self, dimension: &str) -> Option<usize> {
+        let known = self.dimensions.iter().find(|known| known.0 == dimension);
+        known.map(|known| known.1)
+    }
+
+    pub(crate) fn is_ragged(&self, dimension: &str) -> bool {
+        self.ragged.iter().any(|known| known == dimension)
     }
 
     /// Coordinates and variables, to be taken over without a copy.
@@ -189,7 +276,16 @@ impl Variable {
             attributes: Vec::new(),
             flags: Vec::new(),
             fill: None,
+            words: &[],
+            gap: None,
         }
+    }
+
+    /// The same array under another name.
+    #[must_use]
+    pub fn named(mut self, name: impl Into<String>) -> Self {
+        self.name = name.into();
+        self
     }
 
     /// The values along the dimension of the same name, for [`Dataset::coordinate`].
@@ -217,6 +313,23 @@ impl Variable {
         let word = |word: T| word.into().trim().replace(char::is_whitespace, "_");
         let meanings = meanings.into_iter();
         self.flags = meanings.map(|(value, text)| (value, word(text))).collect();
+        self
+    }
+
+    /// Says what the whole numbers from 0 on stand for: tables and documents show the words, files of arrays the numbers
+    /// with flags. A number behind the last word is a gap.
+    #[must_use]
+    pub fn words(mut self, words: &'static [&'static str]) -> Self {
+        self.words = words;
+        let meanings = (0..).zip(words.iter().map(|word| word.replace('-', "_")));
+        self.flags(meanings)
+    }
+
+    /// The whole number that stands for no value in tables and documents, such as the period 0. Files of arrays keep it
+    /// as it is; see [`fill`](Self::fill).
+    #[must_use]
+    pub fn gap(mut self, value: i32) -> Self {
+        self.gap = Some(value);
         self
     }
 
@@ -254,6 +367,54 @@ impl Variable {
     /// Its values, taken over without a copy.
     pub fn into_values(self) -> Values {
         self.values
+    }
+
+    /// Its long name, if it has one.
+    pub fn long_name_text(&self) -> &str {
+        self.text("long_name")
+    }
+
+    /// Its unit, if it has one.
+    pub fn units_text(&self) -> &str {
+        self.text("units")
+    }
+
+    fn text(&self, name: &str) -> &str {
+        match self.attributes.iter().find(|known| known.0 == name) {
+            Some((_, Attribute::Text(text))) => text,
+            _ => "",
+        }
+    }
+
+    pub(crate) fn has_words(&self) -> bool {
+        !self.words.is_empty()
+    }
+
+    /// The value at `index`, as tables and documents show it.
+    pub(crate) fn cell(&self, index: usize) -> Cell<'_> {
+        let whole = |number: i64| match self.gap {
+            Some(gap) if number == i64::from(gap) => Cell::Gap,
+            _ if self.words.is_empty() => Cell::Whole(number),
+            _ => usize::try_from(number)
+                .ok()
+                .and_then(|code| self.words.get(code))
+                .map_or(Cell::Gap, |word| Cell::Text(word)),
+        };
+        let number = |number: f64| match number {
+            _ if number.is_nan() => Cell::Gap,
+            _ => Cell::Number(number),
+        };
+        match &self.values {
+            Values::F64(values) => number(values[index]),
+            Values::F32(values) => number(values[index].into()),
+            Values::I32(values) => whole(values[index].into()),
+            Values::U16(values) => whole(values[index].into()),
+            Values::U8(values) => whole(values[index].into()),
+            Values::I64(values) => whole(values[index]),
+            Values::Bool(values) => Cell::Flag(values[index]),
+            Values::Text(values) if values[index].is_empty() => Cell::Gap,
+            Values::Text(values) => Cell::Text(&values[index]),
+        }
     }
 
     /// Names and values of its attributes, without those that follow from flags and fill value.
@@ -302,9 +463,28 @@ impl Values {
 }
 
 /// A single value, for a variable without dimensions.
-impl From<f64> for Values {
-    fn from(value: f64) -> Self {
-        Self::F64(vec![value])
+macro_rules! single {
+    ($($variant:ident ($source:ty)),*) => {
+        $(impl From<$source> for Values {
+            fn from(value: $source) -> Self {
+                Self::$variant(vec![value])
+            }
+        })*
+    };
+}
+
+single!(
+    F64(f64),
+    I32(i32),
+    I64(i64),
+    U8(u8),
+    Bool(bool),
+    Text(String)
+);
+
+impl From<&str> for Values {
+    fn from(text: &str) -> Self {
+        text.to_owned().into()
     }
 }
 

@@ -269,7 +269,7 @@ fn a_dataset_can_be_read_in_memory() {
     assert_eq!(period.fill_value(), None);
     let title = |entry: &&(String, Attribute)| entry.0 == "title";
     assert_eq!(
-        dataset.attributes().iter().find(title).unwrap().1,
+        dataset.attributes().find(title).unwrap().1,
         "Attractors".into()
     );
     let settled = dataset

@@ -7,5 +7,5 @@ mod figures;
 mod folder;
 mod manifest;
 mod one_writer;
-mod parquet;
 mod pieces;
+mod tables;

@@ -34,10 +34,10 @@ pub enum Inertia {
     /// In-plane amplitudes follow the transverse ones as oscillators far above the driving frequency do:
     /// statically, and by two terms of their inertia and damping; their free oscillations are lost.
     /// For the paper's plate 20 periods end 2e-10 h from the full ones (at zeta_h 0.45, Omega 0.9; 2e-9 at
-    /// 1.1; `tests/slow_manifold.rs`), at a twenty-fifth of the cost. At most 9 w terms.
+    /// 1.1; `tests/main/slow_manifold.rs`), at a twenty-fifth of the cost. At most 9 w terms.
     SlowManifold,
     /// In-plane amplitudes follow statically, p = -K^-1 B r r. For the paper's plate orbits differ
-    /// from the full ones by less than 1e-3 eta (4e-6 far from bifurcations, see `tests/motion.rs` and
+    /// from the full ones by less than 1e-3 eta (4e-6 far from bifurcations, see `tests/main/motion.rs` and
     /// `saltus reproduce`), at some hundredth of the cost.
     Condensed,
 }

@@ -1,0 +1,106 @@
+//! What was found: its numbers, described once, and what people are shown of them.
+
+use crate::failure::Failure;
+use crate::store::Store;
+use saltus_config::Study;
+use saltus_results::{Dataset, Document, Figure};
+use serde::Serialize;
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Takes figures, each under its name.
+pub type Take<'a> = &'a mut dyn FnMut(&str, &Figure) -> Result<(), Failure>;
+
+/// What is told at the end of a command.
+pub trait Told {
+    /// What it says to people.
+    fn summary(&self) -> String;
+
+    /// Writes the JSON document.
+    ///
+    /// # Errors
+    /// Those of `to`.
+    fn document(&self, to: &mut dyn Write) -> io::Result<()>;
+}
+
+/// What was found. Tables, arrays and the document are views of [`data`](Self::data).
+pub trait Answer: Send + Sync {
+    /// The study that it is about.
+    fn study(&self) -> &Study;
+
+    /// Everything that was found, each quantity described once.
+    fn data(&self) -> Dataset;
+
+    /// What it says to people.
+    fn summary(&self) -> String;
+
+    /// Draws the figures one after the other.
+    ///
+    /// # Errors
+    /// Those of `take`.
+    fn draw(&self, take: Take) -> Result<(), Failure>;
+
+    /// Writes the JSON document; `data` is what [`data`](Self::data) gives.
+    ///
+    /// # Errors
+    /// Those of `to`.
+    fn document(&self, data: &Dataset, to: &mut dyn Write) -> io::Result<()> {
+        #[derive(Serialize)]
+        struct Whole<'a> {
+            version: &'static str,
+            #[serde(flatten)]
+            found: Document<'a>,
+            study: &'a Study,
+        }
+        let whole = Whole {
+            version: env!("CARGO_PKG_VERSION"),
+            found: Document::new(data),
+            study: self.study(),
+        };
+        stream_json(to, &whole)
+    }
+
+    /// Hands over what is no document: `data` under the name `dataset`, figures, texts.
+    ///
+    /// # Errors
+    /// [`Failure`] where the store refuses or a figure cannot be drawn.
+    fn fill(&self, store: &mut dyn Store, dataset: &str, data: Dataset) -> Result<(), Failure> {
+        self.draw(&mut |name, figure| store.put_figure(name, figure))?;
+        // the last, since it is the largest and goes away with it
+        store.put_dataset(dataset, data)
+    }
+
+    /// Why it is not all that was asked for, if so: a motion that ended early, as far as it came.
+    fn shortfall(&self) -> Option<Failure> {
+        None
+    }
+
+    /// The folder with pieces that were kept until the answer is stored, if there is one.
+    fn pieces(&self) -> Option<&Path> {
+        None
+    }
+
+    /// Removes the pieces: the answer is stored.
+    ///
+    /// # Errors
+    /// [`Failure::Results`] if they cannot be removed.
+    fn stored(&mut self) -> Result<(), Failure> {
+        Ok(())
+    }
+}
+
+impl<A: Answer + ?Sized> Told for A {
+    fn summary(&self) -> String {
+        Answer::summary(self)
+    }
+
+    fn document(&self, to: &mut dyn Write) -> io::Result<()> {
+        Answer::document(self, &self.data(), to)
+    }
+}
+
+/// Writes a JSON document that ends in a newline.
+pub(crate) fn stream_json(to: &mut dyn Write, document: &impl Serialize) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *to, document)?;
+    to.write_all(b"\n")
+}

@@ -1,0 +1,255 @@
+//! All quantities that answers have: name, meaning and unit of each, said here and nowhere else.
+//!
+//! A name is one thing wherever it is found. Quantities of the same kind at another place, as of a special point or a
+//! loop, are the same under another name ([`Quantity::named`]).
+
+use saltus_results::Quantity;
+
+const fn number(name: &'static str, meaning: &'static str) -> Quantity {
+    Quantity::new(name, meaning, "1")
+}
+
+const fn joule(name: &'static str, meaning: &'static str) -> Quantity {
+    Quantity::new(name, meaning, "J")
+}
+
+// The base, the run
+
+pub(crate) const BASE_FREQUENCY: Quantity =
+    Quantity::new("base_frequency", "Frequency of the base motion", "Hz");
+pub(crate) const FORCING_PERIOD: Quantity =
+    Quantity::new("forcing_period", "Period of the base motion", "s");
+pub(crate) const STATUS: Quantity = Quantity::one_of(
+    "status",
+    "How the run ended",
+    &[
+        "completed",
+        "chattering",
+        "not-finite",
+        "too-many-steps",
+        "no-model",
+    ],
+);
+pub(crate) const STATUS_TEXT: Quantity =
+    Quantity::text("status_text", "How the run ended, in a sentence");
+pub(crate) const STATES: Quantity = number("states", "States of the model");
+pub(crate) const PERIOD: Quantity = number("period", "Period in forcing periods");
+
+// People and plate at cos(Omega t) = 1
+
+pub(crate) const JUMPER: Quantity = number("jumper", "Jumper, in the order of the study");
+pub(crate) const TERM: Quantity = number("term", "Transverse term of the plate");
+pub(crate) const TERM_M: Quantity = number("m", "Half-waves of the term along x");
+pub(crate) const TERM_N: Quantity = number("n", "Half-waves of the term along y");
+pub(crate) const Z: Quantity = number("z", "Height over eta = g/omega_h^2");
+pub(crate) const V: Quantity = number("v", "Velocity over eta omega_h");
+pub(crate) const W: Quantity = number("w", "Plate amplitude over thickness h, by terms");
+pub(crate) const PHASE: Quantity =
+    Quantity::one_of("phase", "Contact or flight", &["contact", "flight", "none"]);
+pub(crate) const CONTACT_RATIO: Quantity = number("contact_ratio", "Part of the time on the floor");
+pub(crate) const PEAK_REACTION: Quantity = number(
+    "peak_reaction",
+    "Largest plate reaction force over body weight",
+);
+pub(crate) const PEAK_ACCELERATION: Quantity = Quantity::new(
+    "peak_acceleration",
+    "Largest absolute vertical acceleration of the floor under the first jumper",
+    "m s-2",
+);
+
+// Time history and switches
+
+pub(crate) const HISTORY_TIME: Quantity =
+    Quantity::new("history_time", "Time since the start", "s");
+pub(crate) const HISTORY_Z: Quantity = Z.named("history_z");
+pub(crate) const HISTORY_V: Quantity = V.named("history_v");
+pub(crate) const HISTORY_PRF: Quantity =
+    number("history_prf", "Plate reaction force over body weight");
+pub(crate) const HISTORY_FLOOR: Quantity =
+    Quantity::new("history_floor", "Height of the plate under the feet", "m");
+pub(crate) const SWITCH_TIME: Quantity = HISTORY_TIME.named("switch_time");
+pub(crate) const SWITCH_JUMPER: Quantity = number("switch_jumper", "Who switches");
+pub(crate) const SWITCH_KIND: Quantity = Quantity::one_of(
+    "switch_kind",
+    "What happens; a tangency touches the threshold and does not cross it",
+    &["take-off", "touch-down", "tangency"],
+);
+
+// A run
+
+pub(crate) const PERIODS_RUN: Quantity = number("periods_run", "Forcing periods computed");
+pub(crate) const STEPS: Quantity = number("steps", "Steps of the integrator");
+pub(crate) const SECTION_PERIOD: Quantity =
+    number("period", "Forcing period, at whose end cos(Omega t) = 1");
+pub(crate) const SECTION_TIME: Quantity = Quantity::new("time", "Time of the section", "s");
+pub(crate) const PERIOD_CONTACT_RATIO: Quantity =
+    number("contact_ratio", "Part of the forcing period on the floor");
+pub(crate) const MEAN_CONTACT_RATIO: Quantity = number(
+    "mean_contact_ratio",
+    "Part of the time on the floor behind the transient",
+);
+pub(crate) const ENERGY_BASE: Quantity =
+    joule("energy_base", "Energy of the forcing period: from the base");
+pub(crate) const ENERGY_GRAVITY: Quantity = joule(
+    "energy_gravity",
+    "Energy of the forcing period: from gravity",
+);
+pub(crate) const ENERGY_PLATE: Quantity = joule(
+    "energy_plate",
+    "Energy of the forcing period: lost in the plate",
+);
+pub(crate) const ENERGY_LEGS: Quantity = joule(
+    "energy_legs",
+    "Energy of the forcing period: lost in the legs",
+);
+pub(crate) const ENERGY_DAMPERS: Quantity = joule(
+    "energy_dampers",
+    "Energy of the forcing period: of that in their dampers",
+);
+pub(crate) const ENERGY_STORED: Quantity = joule(
+    "energy_stored",
+    "Energy of the forcing period: gain of what is stored",
+);
+pub(crate) const ENERGY_RESIDUAL: Quantity = joule(
+    "energy_residual",
+    "Energy of the forcing period: what is left over",
+);
+pub(crate) const ENERGY_MAX_RESIDUAL: Quantity = joule(
+    "energy_max_residual",
+    "Largest absolute residual of a forcing period",
+);
+pub(crate) const ENERGY_MAX_TURNOVER: Quantity = joule(
+    "energy_max_turnover",
+    "Largest sum of absolute energies of a forcing period",
+);
+pub(crate) const ENERGY_MAX_RELATIVE_RESIDUAL: Quantity = number(
+    "energy_max_relative_residual",
+    "energy_max_residual over energy_max_turnover",
+);
+
+// Periodic orbits
+
+pub(crate) const PERIOD_ASKED: Quantity = number(
+    "period_asked",
+    "Period that was asked for, in forcing periods",
+);
+pub(crate) const POINT: Quantity = number("point", "Place of the orbit at cos(Omega t) = 1");
+pub(crate) const OUTSIDE: Quantity =
+    number("outside", "Floquet multipliers outside the unit circle");
+pub(crate) const IN_FAMILY: Quantity = Quantity::text(
+    "in_family",
+    "Whether a multiplier is 1 to its error, so that other orbits lie beside this one",
+);
+pub(crate) const RESIDUAL: Quantity = number(
+    "residual",
+    "Largest gap left between the pieces of the orbit, in h and h Omega",
+);
+pub(crate) const ITERATIONS: Quantity = number("iterations", "Steps of Newton's method");
+pub(crate) const SEGMENTS: Quantity = number("segments", "Pieces that Newton's method joined");
+pub(crate) const MULTIPLIER: Quantity = number("multiplier", "By falling modulus");
+pub(crate) const MULTIPLIER_REAL: Quantity = number("multiplier_real", "Floquet multiplier, real");
+pub(crate) const MULTIPLIER_IMAGINARY: Quantity =
+    number("multiplier_imaginary", "Floquet multiplier, imaginary");
+pub(crate) const MULTIPLIER_MODULUS: Quantity =
+    number("multiplier_modulus", "Floquet multiplier, modulus");
+pub(crate) const MULTIPLIER_ERROR: Quantity = number(
+    "multiplier_error",
+    "How far a Floquet multiplier may be off",
+);
+pub(crate) const TOUCH_DOWN_PHASE: Quantity = Quantity::new(
+    "touch_down_phase",
+    "Omega t at each touch-down, in (0, 2 pi]",
+    "rad",
+);
+
+// Lyapunov exponents
+
+pub(crate) const EXPONENT_NUMBER: Quantity =
+    number("exponent_number", "The largest exponent first");
+pub(crate) const EXPONENT: Quantity = number(
+    "exponent",
+    "Lyapunov exponent: mean growth of a small deviation per forcing period",
+);
+pub(crate) const EXPONENT_ERROR: Quantity = number("exponent_error", "Standard error of exponent");
+pub(crate) const EXPONENT_LOW: Quantity = number(
+    "exponent_low",
+    "Lower end of the interval that holds it with a probability of 0.95",
+);
+pub(crate) const EXPONENT_HIGH: Quantity = number(
+    "exponent_high",
+    "Upper end of the interval that holds it with a probability of 0.95",
+);
+pub(crate) const EXPONENT_PER_SECOND: Quantity = Quantity::new(
+    "exponent_per_second",
+    "Mean growth of a small deviation per second",
+    "s-1",
+);
+pub(crate) const EXPONENT_PER_SECOND_ERROR: Quantity = Quantity::new(
+    "exponent_per_second_error",
+    "Standard error of exponent_per_second",
+    "s-1",
+);
+pub(crate) const RECORD_PERIODS: Quantity =
+    number("periods", "Forcing periods of each replica so far");
+pub(crate) const RUNNING_EXPONENT: Quantity = EXPONENT.named("running_exponent");
+pub(crate) const RUNNING_ERROR: Quantity = number(
+    "running_error",
+    "Standard error of running_exponent; inf while the record is too short for one",
+);
+pub(crate) const EXPONENT_SUM: Quantity = number("exponent_sum", "Sum of the exponents");
+pub(crate) const EXPONENT_SUM_ERROR: Quantity =
+    number("exponent_sum_error", "Standard error of exponent_sum");
+pub(crate) const EXPONENT_SUM_LOW: Quantity = EXPONENT_LOW.named("exponent_sum_low");
+pub(crate) const EXPONENT_SUM_HIGH: Quantity = EXPONENT_HIGH.named("exponent_sum_high");
+pub(crate) const EXPONENT_SUM_PER_SECOND: Quantity = Quantity::new(
+    "exponent_sum_per_second",
+    "Sum of the exponents per second",
+    "s-1",
+);
+pub(crate) const EXPONENT_SUM_PER_SECOND_ERROR: Quantity =
+    EXPONENT_PER_SECOND_ERROR.named("exponent_sum_per_second_error");
+pub(crate) const DIVERGENCE: Quantity = number(
+    "divergence",
+    "Mean divergence of the flow per forcing period",
+);
+pub(crate) const DIVERGENCE_MUST_AGREE: Quantity = Quantity::text(
+    "divergence_must_agree",
+    "Whether the divergence must be the sum of the exponents",
+);
+pub(crate) const DIVERGENCE_DIFFERENCE: Quantity = number(
+    "divergence_difference",
+    "Sum of the exponents less divergence, where they must agree",
+);
+pub(crate) const KAPLAN_YORKE: Quantity = number("kaplan_yorke", "Dimension of Kaplan and Yorke");
+pub(crate) const KAPLAN_YORKE_ERROR: Quantity =
+    number("kaplan_yorke_error", "Standard error of kaplan_yorke");
+pub(crate) const CONFIDENCE: Quantity =
+    number("confidence", "Of the test behind the name of the motion");
+pub(crate) const TRANSIENT: Quantity = number("transient", "Forcing periods left out before");
+pub(crate) const PERIODS_ASKED: Quantity =
+    number("periods_asked", "Forcing periods measured in each replica");
+pub(crate) const PERIODS_MEASURED: Quantity = number(
+    "periods_measured",
+    "Forcing periods measured in all replicas together",
+);
+pub(crate) const REPLICAS: Quantity = number("replicas", "Pieces of the motion, run side by side");
+
+// Natural frequencies
+
+const MODE: Quantity = number("mode", "Mode, the lowest frequency first");
+pub(crate) const PLATE_MODE: Quantity = MODE.named("plate_mode");
+pub(crate) const OCCUPIED_MODE: Quantity = MODE.named("occupied_mode");
+pub(crate) const IN_PLANE_MODE: Quantity = MODE.named("in_plane_mode");
+pub(crate) const PLATE_FREQUENCY: Quantity =
+    Quantity::new("plate", "Transverse, empty plate", "Hz");
+pub(crate) const OCCUPIED_FREQUENCY: Quantity =
+    Quantity::new("occupied", "Transverse, people standing on the plate", "Hz");
+pub(crate) const IN_PLANE_FREQUENCY: Quantity =
+    Quantity::new("in_plane", "In the plane of the plate", "Hz");
+pub(crate) const FREE_FREQUENCY: Quantity = Quantity::new("free", "Body on rigid ground", "Hz");
+pub(crate) const BODY_FREQUENCY: Quantity = Quantity::new(
+    "body",
+    "Of those occupied, the one in which the first jumper moves most",
+    "Hz",
+);
+pub(crate) const BASE: Quantity = Quantity::new("base", "Base motion", "Hz");
