@@ -34,11 +34,14 @@ pub trait Answer: Send + Sync {
     /// What it says to people.
     fn summary(&self) -> String;
 
-    /// Draws the figures one after the other.
+    /// Draws the figures one after the other; there are none by default.
     ///
     /// # Errors
     /// Those of `take`.
-    fn draw(&self, take: Take) -> Result<(), Failure>;
+    fn draw(&self, take: Take) -> Result<(), Failure> {
+        let _ = take;
+        Ok(())
+    }
 
     /// Writes the JSON document; `data` is what [`data`](Self::data) gives.
     ///

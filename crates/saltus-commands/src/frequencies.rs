@@ -1,6 +1,6 @@
 //! `saltus frequencies`: the plate empty, in its plane, and with the people on it.
 
-use crate::answer::{Answer, Take};
+use crate::answer::Answer;
 use crate::context::Context;
 use crate::data::about;
 use crate::failure::Failure;
@@ -8,6 +8,20 @@ use crate::quantities as q;
 use saltus_config::Study;
 use saltus_results::{Dataset, Quantity, Table};
 use std::f64::consts::TAU;
+
+/// All that it has, in the order of the help.
+pub(crate) const QUANTITIES: &[Quantity] = &[
+    q::PLATE_MODE,
+    q::PLATE_FREQUENCY,
+    q::OCCUPIED_MODE,
+    q::OCCUPIED_FREQUENCY,
+    q::IN_PLANE_MODE,
+    q::IN_PLANE_FREQUENCY,
+    q::JUMPER,
+    q::FREE_FREQUENCY,
+    q::BODY_FREQUENCY,
+    q::BASE,
+];
 
 /// All in Hz, lists ascending.
 struct Frequencies {
@@ -41,10 +55,6 @@ impl Answer for Frequencies {
 
     fn summary(&self) -> String {
         table(self)
-    }
-
-    fn draw(&self, _: Take) -> Result<(), Failure> {
-        Ok(())
     }
 }
 

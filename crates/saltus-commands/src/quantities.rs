@@ -32,6 +32,16 @@ pub(crate) const STATUS: Quantity = Quantity::one_of(
 );
 pub(crate) const STATUS_TEXT: Quantity =
     Quantity::text("status_text", "How the run ended, in a sentence");
+pub(crate) const STABILITY: Quantity = Quantity::text(
+    "stability",
+    "stable: all multipliers inside the unit circle; unstable: some outside; neutral: none outside, \
+     and some so near to it that rounding says on which side",
+);
+pub(crate) const SEQUENCE: Quantity = Quantity::text(
+    "sequence",
+    "Order of the switches: T take-off, L touch-down, with the number of the jumper from 1 if there \
+     are several; | between forcing periods",
+);
 pub(crate) const STATES: Quantity = number("states", "States of the model");
 pub(crate) const PERIOD: Quantity = number("period", "Period in forcing periods");
 
@@ -164,6 +174,24 @@ pub(crate) const TOUCH_DOWN_PHASE: Quantity = Quantity::new(
 
 // Lyapunov exponents
 
+pub(crate) const NATURE: Quantity = Quantity::text(
+    "nature",
+    "What the motion is, by tests at a confidence of 0.999: periodic, quasi-periodic, chaotic or \
+     undecided",
+);
+pub(crate) const NATURE_TEXT: Quantity = Quantity::text(
+    "nature_text",
+    "What the name means, or why there is none and what may help",
+);
+pub(crate) const EXPONENTS_FROM: Quantity = Quantity::text(
+    "exponents_from",
+    "orbit: the motion has come to a cycle, and the exponents are those of its multipliers; record: \
+     means of the record",
+);
+pub(crate) const DIVERGENCE_TEXT: Quantity = Quantity::text(
+    "divergence_text",
+    "Why the divergence must be the sum of the exponents, or need not",
+);
 pub(crate) const EXPONENT_NUMBER: Quantity =
     number("exponent_number", "The largest exponent first");
 pub(crate) const EXPONENT: Quantity = number(
@@ -253,3 +281,111 @@ pub(crate) const BODY_FREQUENCY: Quantity = Quantity::new(
     "Hz",
 );
 pub(crate) const BASE: Quantity = Quantity::new("base", "Base motion", "Hz");
+
+// Sweeps and the figures of the paper
+
+pub(crate) const PANEL: Quantity = Quantity::text("panel", "Panel of the figure");
+pub(crate) const PASS: Quantity = number("pass", "Way through the values");
+pub(crate) const PASS_TEXT: Quantity = Quantity::text(
+    "pass_text",
+    "Way through the values: up, down, or its first state",
+);
+pub(crate) const DIRECTION: Quantity = Quantity::one_of(
+    "direction",
+    "Up and down carry the state on; start begins anew at each value",
+    &["up", "down", "start"],
+);
+pub(crate) const START_Z: Quantity = number(
+    "start_z",
+    "First height over eta, where it begins anew at each value",
+);
+pub(crate) const START_V: Quantity = number(
+    "start_v",
+    "First velocity over eta omega_h, where it begins anew at each value",
+);
+pub(crate) const RECORD_SAMPLE: Quantity = number("sample", "Forcing period of the record");
+
+const RATIO: Quantity = number("frequency_ratio", "Frequency of the base over omega_h");
+const DAMPING: Quantity = number("damping_ratio", "Damping ratio zeta_h of the person");
+const STRETCH: &str = "between these damping ratios all multipliers of the cycle lie inside the \
+                       unit circle";
+pub(crate) const REGIME_LAW: Quantity = Quantity::text("regime_law", "Contact law");
+pub(crate) const REGIME_REFERENCE: Quantity =
+    Quantity::text("regime_reference", "Which frequency of the body omega_h is");
+pub(crate) const REGIME_RATIO: Quantity = RATIO.named("regime_frequency_ratio");
+pub(crate) const REGIME_BASE: Quantity = BASE_FREQUENCY.named("regime_base_frequency");
+pub(crate) const REGIME_PERIOD: Quantity = PERIOD.named("regime_period");
+pub(crate) const REGIME_FROM: Quantity = number("regime_from", STRETCH);
+pub(crate) const REGIME_FROM_IS: Quantity =
+    Quantity::text("regime_from_is", "What happens at regime_from");
+pub(crate) const REGIME_TO: Quantity = number("regime_to", STRETCH);
+pub(crate) const REGIME_TO_IS: Quantity =
+    Quantity::text("regime_to_is", "What happens at regime_to");
+pub(crate) const SWEEP_RATIO: Quantity = RATIO.named("sweep_frequency_ratio");
+pub(crate) const SWEEP_PASS: Quantity = PASS_TEXT.named("sweep_pass");
+pub(crate) const SWEEP_DAMPING: Quantity = DAMPING.named("sweep_damping_ratio");
+pub(crate) const SWEEP_CYCLE: Quantity = number(
+    "sweep_cycle",
+    "Period of the stable cycle that the motion is on, to 0.05 eta; none if on none",
+);
+pub(crate) const SWEEP_SLOW: Quantity = number(
+    "sweep_slow",
+    "Periods after which a motion on no stable cycle repeats to 1e-3 eta: one still on its way",
+);
+pub(crate) const TRANSITION_RATIO: Quantity = RATIO.named("transition_frequency_ratio");
+pub(crate) const TRANSITION_LABEL: Quantity =
+    Quantity::text("transition_label", "Label of the special point");
+pub(crate) const TRANSITION_KIND: Quantity =
+    Quantity::text("transition_kind", "Kind of the special point");
+pub(crate) const TRANSITION_PERIOD: Quantity = PERIOD.named("transition_period");
+pub(crate) const TRANSITION_DAMPING: Quantity = number(
+    "transition_damping_ratio",
+    "Damping ratio of the special point, by continuation with the tangent flow",
+);
+pub(crate) const TRANSITION_SECOND: Quantity = number(
+    "transition_second",
+    "The same from orbits at given damping ratios, derivatives by differences; none if not found so",
+);
+const YES: &[&str] = &["no", "yes"];
+pub(crate) const TRANSITION_SEEN: Quantity = Quantity::one_of(
+    "transition_seen",
+    "Whether the orbit is stable on one side at least",
+    YES,
+);
+pub(crate) const TRANSITION_SWITCHES: Quantity =
+    Quantity::text("transition_switches", "Order of the switches");
+pub(crate) const BRANCH_RATIO: Quantity = RATIO.named("branch_frequency_ratio");
+pub(crate) const BRANCH_NUMBER: Quantity = number("branch", "Branch, the first one 0");
+pub(crate) const BRANCH_ORIGIN: Quantity = Quantity::text(
+    "branch_origin",
+    "Label of the special point where the branch begins; none if followed from a motion",
+);
+pub(crate) const BRANCH_POINT: Quantity = number(
+    "branch_point_number",
+    "Number of the point on its branch, from 0",
+);
+pub(crate) const BRANCH_DAMPING: Quantity = DAMPING.named("branch_damping_ratio");
+pub(crate) const BRANCH_STABLE: Quantity =
+    Quantity::one_of("branch_stable", "Whether the orbit is stable", YES);
+pub(crate) const BRANCH_PLACE: Quantity = POINT.named("branch_place");
+pub(crate) const BRANCH_Z: Quantity = Z.named("branch_z");
+pub(crate) const EXPONENT_PERIODS: Quantity = number(
+    "exponent_periods",
+    "Forcing periods over which each exponent was measured",
+);
+pub(crate) const EXPONENT_RATIO: Quantity = RATIO.named("exponent_frequency_ratio");
+pub(crate) const EXPONENT_DAMPING: Quantity = DAMPING.named("exponent_damping_ratio");
+pub(crate) const FIG3_PANEL: Quantity = PANEL.named("fig3_panel");
+pub(crate) const FIG3_RATIO: Quantity = RATIO.named("fig3_frequency_ratio");
+pub(crate) const FIG3_DAMPING: Quantity = DAMPING.named("fig3_damping_ratio");
+pub(crate) const FIG3_Z: Quantity = Z.named("fig3_z");
+pub(crate) const FIG3_V: Quantity = V.named("fig3_v");
+pub(crate) const INERTIA_RATIO: Quantity = RATIO.named("inertia_frequency_ratio");
+pub(crate) const INERTIA_DAMPING: Quantity = DAMPING.named("inertia_damping_ratio");
+pub(crate) const INERTIA_DIFFERENCE: Quantity = number(
+    "inertia_difference",
+    "Largest difference of the sections over eta; none where they are not both periodic",
+);
+pub(crate) const INERTIA_FULL: Quantity = CONTACT_RATIO.named("inertia_contact_ratio_full");
+pub(crate) const INERTIA_CONDENSED: Quantity =
+    CONTACT_RATIO.named("inertia_contact_ratio_condensed");

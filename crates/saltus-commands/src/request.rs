@@ -11,6 +11,7 @@ use crate::{
     attractors, basins, continuation, frequencies, lyapunov, map, orbit, reproduce, simulate, sweep,
 };
 use saltus_config::Study;
+use saltus_results::Quantity;
 use serde::{Deserialize, Serialize};
 
 /// A question. What it is about stands in the study, but for what is said here.
@@ -81,6 +82,23 @@ impl Request {
         match self {
             Self::Reproduce { .. } => "fig2.nc".to_owned(),
             other => format!("{}.nc", other.name()),
+        }
+    }
+
+    /// What its answers may have, in the order of the help. Parameters that change are variables beside these, named after
+    /// their keys.
+    pub fn quantities(&self) -> &'static [Quantity] {
+        match self {
+            Self::Frequencies => frequencies::QUANTITIES,
+            Self::Simulate => simulate::QUANTITIES,
+            Self::Orbit => orbit::QUANTITIES,
+            Self::Lyapunov => lyapunov::QUANTITIES,
+            Self::Sweep
+            | Self::Map
+            | Self::Basins { .. }
+            | Self::Continue { .. }
+            | Self::Attractors
+            | Self::Reproduce { .. } => &[],
         }
     }
 

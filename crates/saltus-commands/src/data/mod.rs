@@ -1,6 +1,9 @@
 //! Parts that the data of several questions have: where it comes from, parameters as axes, whole numbers, gaps.
 
+mod listed;
 pub(crate) mod motion;
+
+pub(crate) use listed::Listed;
 
 use crate::quantities as q;
 use crate::words::capitalized;

@@ -7,7 +7,47 @@ use crate::status;
 use saltus::orbits::{Exponent, Nature};
 use saltus::physics::ContactLaw;
 use saltus_config::Inertia;
-use saltus_results::{Dataset, Table};
+use saltus_results::{Dataset, Quantity, Table};
+
+/// All that it has, in the order of the help.
+pub(crate) const QUANTITIES: &[Quantity] = &[
+    q::STATUS,
+    q::STATUS_TEXT,
+    q::NATURE,
+    q::NATURE_TEXT,
+    q::PERIOD,
+    q::CONFIDENCE,
+    q::EXPONENTS_FROM,
+    q::EXPONENT_NUMBER,
+    q::EXPONENT,
+    q::EXPONENT_ERROR,
+    q::EXPONENT_LOW,
+    q::EXPONENT_HIGH,
+    q::EXPONENT_PER_SECOND,
+    q::EXPONENT_PER_SECOND_ERROR,
+    q::EXPONENT_SUM,
+    q::EXPONENT_SUM_ERROR,
+    q::EXPONENT_SUM_LOW,
+    q::EXPONENT_SUM_HIGH,
+    q::EXPONENT_SUM_PER_SECOND,
+    q::EXPONENT_SUM_PER_SECOND_ERROR,
+    q::DIVERGENCE,
+    q::DIVERGENCE_MUST_AGREE,
+    q::DIVERGENCE_DIFFERENCE,
+    q::DIVERGENCE_TEXT,
+    q::KAPLAN_YORKE,
+    q::KAPLAN_YORKE_ERROR,
+    q::RECORD_PERIODS,
+    q::RUNNING_EXPONENT,
+    q::RUNNING_ERROR,
+    q::STATES,
+    q::TRANSIENT,
+    q::PERIODS_ASKED,
+    q::REPLICAS,
+    q::PERIODS_MEASURED,
+    q::BASE_FREQUENCY,
+    q::FORCING_PERIOD,
+];
 
 pub(super) fn data(found: &Found) -> Dataset {
     let (growth, how, nature) = (&found.growth, &found.how, found.verdict.nature);
@@ -15,11 +55,11 @@ pub(super) fn data(found: &Found) -> Dataset {
         "Lyapunov exponents of people on a vibrating plate",
         &found.study,
     )
-    .attribute("status", growth.status.name())
-    .attribute("status_text", status::text(&growth.status, None))
-    .attribute("nature", words::name(nature))
-    .attribute("nature_text", words::meaning(nature))
-    .attribute("exponents_from", found.source())
+    .attribute(q::STATUS.name, growth.status.name())
+    .attribute(q::STATUS_TEXT.name, status::text(&growth.status, None))
+    .attribute(q::NATURE.name, words::name(nature))
+    .attribute(q::NATURE_TEXT.name, words::meaning(nature))
+    .attribute(q::EXPONENTS_FROM.name, found.source())
     .variable(q::PERIOD.is(period(nature)).gap(0))
     .variable(q::CONFIDENCE.is(found.verdict.confidence))
     .variable(q::STATES.is(whole(found.model.free_states())))
@@ -70,7 +110,7 @@ fn sums(set: Dataset, found: &Found) -> Dataset {
     let (must_agree, reason) = found.check();
     let dimension = found.growth.spectrum.kaplan_yorke();
     let dimension = dimension.map_or([f64::NAN; 2], |found| [found.value, found.standard_error]);
-    set.attribute("divergence_text", reason)
+    set.attribute(q::DIVERGENCE_TEXT.name, reason)
         .variable(q::EXPONENT_SUM.is(sum.per_iterate))
         .variable(q::EXPONENT_SUM_ERROR.is(sum.standard_error))
         .variable(q::EXPONENT_SUM_LOW.is(low))

@@ -1,19 +1,16 @@
 //! Why the transitions of Fig. 2 are where they are: branches, special points, exponents.
 
-use saltus::study::paper::{Detail, Diagram, PanelBranches, PanelExponents, Transition};
-use saltus_results::{Axis, Branches, Colour, Curves, Figure, Panel, Value};
+use saltus::study::paper::{Detail, Diagram, PanelExponents, Transition};
+use saltus_results::{Axis, Branches, Colour, Curves, Figure, Panel};
 
 use super::Results;
+use super::data::{details, panels};
 use super::figures::{DAMPING, HEIGHT, points};
 use super::page::Album;
-use super::tables::{header, panels};
 use crate::failure::Failure;
 use crate::kinds;
 
 pub(super) fn write(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
-    transitions_csv(album, results)?;
-    branches_csv(album, results)?;
-    exponents_csv(album, results)?;
     album.section("Why the transitions are where they are");
     album.say(&[
         "Sweeps see stable motions only. Here the periodic orbits themselves are followed, stable or not, with every \
@@ -61,19 +58,13 @@ pub(super) fn write(album: &mut Album<'_>, results: &Results) -> Result<(), Fail
     )
 }
 
-/// What is known of the paper's own panels.
-fn details(results: &Results) -> impl Iterator<Item = (&PanelBranches, &Detail)> {
-    let panels = results.branches.iter();
-    panels.filter_map(|panel| Some((panel, panel.detail.as_ref()?)))
-}
-
 /// How far the two methods are apart, measured on the table itself.
 fn agreement(results: &Results) -> String {
-    let all = details(results).flat_map(|(panel, detail)| {
+    let all = details(results).flat_map(|(ratio, detail)| {
         let points = detail.transitions.iter();
-        points.filter_map(|point| {
+        points.filter_map(move |point| {
             let apart = (point.second? - point.damping_ratio).abs();
-            Some((apart, panel.ratio, &point.label))
+            Some((apart, ratio, &point.label))
         })
     });
     let points: Vec<_> = all.collect();
@@ -88,7 +79,7 @@ fn agreement(results: &Results) -> String {
     )
 }
 
-fn rows((panel, detail): (&PanelBranches, &Detail)) -> Vec<Vec<String>> {
+fn rows((ratio, detail): (f64, &Detail)) -> Vec<Vec<String>> {
     let seen = detail
         .transitions
         .iter()
@@ -98,7 +89,7 @@ fn rows((panel, detail): (&PanelBranches, &Detail)) -> Vec<Vec<String>> {
             .second
             .map_or("none near".into(), |zeta| format!("{zeta:.10}"));
         vec![
-            format!("{:.1}", panel.ratio),
+            format!("{ratio:.1}"),
             transition.label.clone(),
             kinds::name(&transition.kind).into(),
             format!("{}T", transition.period),
@@ -172,111 +163,4 @@ fn exponents(results: &Results) -> Figure {
     Figure::grid(1, results.exponents.iter().map(panel))
         .title("Lyapunov exponents along Fig. 2")
         .plot_size(900.0, 240.0)
-}
-
-fn transitions_csv(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
-    let rows = details(results).flat_map(|(panel, detail)| {
-        detail.transitions.iter().map(|transition| {
-            vec![
-                Value::from(panel.ratio),
-                transition.label.clone().into(),
-                kinds::name(&transition.kind).into(),
-                (transition.period as u32).into(),
-                transition.damping_ratio.into(),
-                transition.second.into(),
-                if transition.seen { "yes" } else { "no" }.into(),
-                transition.sequence.clone().into(),
-            ]
-        })
-    });
-    let settings = [
-        ("damping_ratio", "by continuation with the tangent flow"),
-        (
-            "second",
-            "from orbits at given damping ratios, derivatives by differences; empty: not found so",
-        ),
-        ("seen", "whether the orbit is stable on one side at least"),
-    ];
-    let names = [
-        "frequency_ratio",
-        "label",
-        "kind",
-        "period",
-        "damping_ratio",
-        "second",
-        "seen",
-        "switches",
-    ];
-    album
-        .folder
-        .table("transitions.csv", &settings, &header(&names), rows)
-}
-
-fn branches_csv(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
-    let rows = details(results).flat_map(|(panel, detail)| {
-        detail
-            .limbs
-            .iter()
-            .enumerate()
-            .flat_map(move |(number, limb)| {
-                (0..limb.damping_ratio.len()).flat_map(move |point| {
-                    limb.heights
-                        .iter()
-                        .enumerate()
-                        .map(move |(place, heights)| {
-                            vec![
-                                Value::from(panel.ratio),
-                                (number as u32).into(),
-                                limb.origin.clone().unwrap_or_default().into(),
-                                (point as u32).into(),
-                                limb.damping_ratio[point].into(),
-                                if limb.stable[point] { "yes" } else { "no" }.into(),
-                                (place as u32).into(),
-                                heights[point].into(),
-                            ]
-                        })
-                })
-            })
-    });
-    let settings = [(
-        "origin",
-        "label of the special point where the branch begins; empty: followed from a motion",
-    )];
-    let names = [
-        "frequency_ratio",
-        "branch",
-        "origin",
-        "point",
-        "damping_ratio",
-        "stable",
-        "place",
-        "z_eta",
-    ];
-    album
-        .folder
-        .table("branches.csv", &settings, &header(&names), rows)
-}
-
-fn exponents_csv(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
-    let rows = results.exponents.iter().flat_map(|panel| {
-        panel.values.iter().map(|(zeta, exponent)| {
-            vec![
-                Value::from(panel.ratio),
-                (*zeta).into(),
-                exponent.per_iterate.into(),
-                exponent.standard_error.into(),
-            ]
-        })
-    });
-    let periods = results.effort.panel_exponent_periods.to_string();
-    let settings = [("periods", periods.as_str())];
-    let names = [
-        "frequency_ratio",
-        "damping_ratio",
-        "exponent_per_period",
-        "standard_error",
-    ];
-    album
-        .folder
-        .table("exponents.csv", &settings, &header(&names), rows)
 }

@@ -1,11 +1,10 @@
 //! `saltus reproduce`: the paper, figure by figure, with our numbers beside its words.
 
 mod branches;
-mod dataset;
+mod data;
+mod facts;
 mod figures;
 mod page;
-mod report;
-mod tables;
 
 use std::io::{self, Write};
 use std::sync::Arc;
@@ -17,11 +16,11 @@ use saltus::study::paper::{
 };
 use saltus::study::{Control, StudyError};
 
-use crate::answer::{Answer, Take, stream_json};
+use crate::answer::{Answer, stream_json};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::store::Store;
-use report::Report;
+use facts::Report;
 use saltus_config::Study;
 use saltus_results::Dataset;
 
@@ -49,11 +48,7 @@ impl Answer for Results {
     }
 
     fn data(&self) -> Dataset {
-        dataset::fig2(self).unwrap_or_else(|_| Dataset::new("Fig. 2"))
-    }
-
-    fn draw(&self, _: Take) -> Result<(), Failure> {
-        Ok(())
+        data::data(self)
     }
 
     fn summary(&self) -> String {

@@ -4,8 +4,9 @@ use saltus::physics::FrequencyReference::{Free, Occupied};
 use saltus::study::paper::Verdict;
 use saltus_results::{Fact, Figure, FigureBlock, Image, Page, Verdict as Badge};
 
-use super::report::{QUICK, RegimeRow, Report};
-use super::{Results, branches, figures, tables};
+use super::data::came_to;
+use super::facts::{QUICK, RegimeRow, Report};
+use super::{Results, branches, figures};
 use crate::failure::Failure;
 use crate::store::Store;
 
@@ -15,7 +16,6 @@ pub(super) fn write(
     results: &Results,
     report: &Report,
 ) -> Result<(), Failure> {
-    tables::write(folder, results, report)?;
     folder.text("facts.md", &report.markdown())?;
     let mut album = Album {
         folder,
@@ -121,7 +121,7 @@ fn fig2(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
         effort.values,
         effort.record,
         effort.transient,
-        tables::came_to(results)
+        came_to(results)
     );
     let data = [
         ("a", "fig2a.csv"),

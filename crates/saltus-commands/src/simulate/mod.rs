@@ -5,6 +5,8 @@ mod figures;
 mod flights;
 mod summary;
 
+pub(crate) use data::QUANTITIES;
+
 use crate::answer::{Answer, Take};
 use crate::context::Context;
 use crate::failure::Failure;
