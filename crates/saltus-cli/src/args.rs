@@ -42,13 +42,13 @@ pub(crate) enum Command {
     #[command(after_help = help::BASINS)]
     Basins(BasinsArgs),
     /// The periodic orbit near the long-term motion, stable or not
-    #[command(after_help = help::ORBIT)]
+    #[command(after_help = help::orbit())]
     Orbit(WorkArgs),
     /// Branches of periodic orbits while one parameter changes, with their bifurcations
     #[command(after_help = help::CONTINUE)]
     Continue(ContinueArgs),
     /// Lyapunov exponents of the long-term motion, with their errors
-    #[command(after_help = help::LYAPUNOV)]
+    #[command(after_help = help::lyapunov())]
     Lyapunov(WorkArgs),
     /// All coexisting long-term motions, their basins and hysteresis while one parameter changes
     #[command(after_help = help::ATTRACTORS)]
@@ -220,7 +220,7 @@ pub(crate) struct SchemaArgs {
 }
 
 #[derive(Debug, Args)]
-#[command(after_help = help::SIMULATE)]
+#[command(after_help = help::simulate())]
 pub(crate) struct SimulateArgs {
     #[command(flatten)]
     pub(crate) study: StudyArgs,

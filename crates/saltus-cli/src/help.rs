@@ -1,39 +1,76 @@
 //! What the help of a command says below its options. Lines fit a terminal of 80 columns.
 
+use saltus_commands::Request;
+use saltus_results::Quantity;
+
+/// Columns of a terminal, and of the names in front of meanings.
+const WIDTH: usize = 80;
+const NAMES: usize = 20;
+
+/// What a command does, the quantities that its answers have, and the tables that show them.
+fn text(what: &str, request: &Request, tables: &str) -> String {
+    let name = request.name();
+    let mut text = match what {
+        "" => String::new(),
+        what => format!("{what}\n\n"),
+    };
+    text += &format!(
+        "Data ({name}.nc in --out for xarray.open_dataset, arrays in Python; single values and\nlists also in JSON: \
+         --json, and {name}.json in --out; null: no value):\n"
+    );
+    for quantity in request.quantities() {
+        text += &entry(quantity);
+    }
+    text + "Tables:\n" + tables
+}
+
+/// Name, meaning, unit and words, in lines.
+fn entry(quantity: &Quantity) -> String {
+    let unit = match quantity.unit {
+        "" => String::new(),
+        "1" => " (-)".to_owned(),
+        unit => format!(" ({unit})"),
+    };
+    let words = match quantity.words {
+        [] => String::new(),
+        words => format!(": {}", words.join(", ")),
+    };
+    let meaning = format!("{}{unit}{words}", quantity.meaning);
+    let mut lines = format!("  {:<1$}", quantity.name, NAMES - 2);
+    if quantity.name.len() + 3 > NAMES {
+        lines += &format!("\n{:NAMES$}", "");
+    }
+    let mut column = NAMES;
+    for word in meaning.split(' ') {
+        let length = word.chars().count();
+        if column + length > WIDTH {
+            lines = format!("{}\n{:NAMES$}", lines.trim_end(), "");
+            column = NAMES;
+        }
+        lines += &format!("{word} ");
+        column += length + 1;
+    }
+    format!("{}\n", lines.trim_end())
+}
+
 /// Below `saltus simulate --help`.
-pub(crate) const SIMULATE: &str = "\
-JSON (--json, and simulate.json in --out):
-  section         one object per forcing period, at cos(Omega t) = 1, the start
-                  not included; z, v, phase are bare values for one jumper,
-                  lists for several, [] for none:
-    z             height z/eta (-), eta = g/omega_h^2
-    v             velocity z'/(eta omega_h) (-)
-    phase         \"contact\" or \"flight\"
-    w             amplitudes r_j/h (-), in the order of plate.modes
-  switches        time (s), jumper (from 0), kind: \"take-off\", \"touch-down\" or
-                  \"tangency\"
-  status          \"completed\", \"chattering\", \"not-finite\", \"too-many-steps\"
-  status_text     the same in a sentence
-  contact_ratio   part of the time on the floor, simulate.transient left out (-)
-  peak_prf        largest plate reaction force in the time history (body
-                  weights); null if the run ended before it
-  energy          balance of each period (J),
-                  stored = base + gravity - plate - legs + residual;
-                  max_relative_residual is the largest |residual| over
-                  max_turnover, the most energy turned over in one period;
-                  in-plane kinetic energy counts for inertia = \"full\" only
-  periods, period_s, base_hz, steps, version, study (as resolved)
+pub(crate) fn simulate() -> String {
+    let tables = "\
+  section, switches, energy: lists of records and CSV; history: CSV. In these
+  the prefixes energy_, history_ and switch_ are left out, and columns of
+  several jumpers are numbered from 0.
+  The balance: stored = base + gravity - plate - legs + residual; in-plane
+  kinetic energy counts for inertia = \"full\" only.
 
-Folder (--out):
-  study.toml, simulate.json, section.csv, switches.csv, history.csv, energy.csv,
-  simulate.nc (all of these as arrays: xarray.open_dataset) and the figures
-  portrait and history as SVG and PNG (for an empty plate the figure section).
-  The time history covers the last 20 periods at most; simulate.transient is
-  left out of it and of the figures.
+Figures: portrait and history (for an empty plate section), as SVG and PNG. The
+time history covers the last 20 periods at most; simulate.transient is left out
+of it, of the figures and of mean_contact_ratio.
 
-A run that ends early (chattering, ...) is told in full, with its status, and
-ends with exit code 1. solver.method = \"rk4\" with a step above its stability
-limit is refused with exit code 2.";
+A run that ends early (chattering, ...) is reported in full, with its status,
+and ends with exit code 1. solver.method = \"rk4\" with a step above its
+stability limit is refused with exit code 2.";
+    text("", &Request::Simulate, tables)
+}
 
 /// Below `saltus sweep --help`.
 pub(crate) const SWEEP: &str = "\
@@ -185,53 +222,24 @@ Folder (--out):
 --resume, --shard and --merge as in `saltus map`.";
 
 /// Below `saltus orbit --help`.
-pub(crate) const ORBIT: &str = "\
+pub(crate) fn orbit() -> String {
+    let what = "\
 Newton's method from the motion that [start] leads to after orbit.transient
 periods. With orbit.period = 0 the orbit is one that this motion is near, in
 chaos an unstable one; otherwise one of orbit.period forcing periods, or of a
 part of them if it closes sooner. The integration has a tolerance of 1e-13
-whatever [solver] says.
+whatever [solver] says. A multiplier may be off by 1e-11 of the derivative of a
+period, times the condition of the eigenvalue.";
+    let tables = "\
+  section, multipliers (re, im, modulus, error), switches: lists of records and
+  CSV; history: CSV, once around.
 
-JSON (--json, and orbit.json in --out):
-  period          forcing periods after which it closes
-  asked           orbit.period; null if that is 0
-  section         its points at cos(Omega t) = 1, period many, as in
-                  `saltus simulate`: z, v, w, phase
-  multipliers     Floquet multipliers [re, im] of the whole orbit, by falling
-                  modulus
-  multiplier_errors
-                  how far each may be off: 1e-11 of the derivative of a period,
-                  times the condition of the eigenvalue
-  stability       \"stable\": all inside the unit circle; \"unstable\": some
-                  outside; \"neutral\": none outside, and some so near to it that
-                  rounding says on which side
-  stable          true, false, or null if neutral
-  outside         how many lie outside, by more than their errors
-  in_family       whether one is 1 to its error: other orbits lie beside this
-                  one, as where a quantity is conserved; Newton's steps keep its
-                  value to first order
-  switches        once around, as in `saltus simulate`: time (s) since the first
-                  point, jumper, kind
-  sequence        the order of its switches: T take-off, L landing (with the
-                  number of the jumper from 1 if there are several), | between
-                  forcing periods
-  contact_ratio   part of the time on the floor (-)
-  landing_phases  of each touch-down, Omega t in (0, 2 pi] (rad)
-  peak_prf        largest plate reaction force (body weights)
-  residual        largest gap left between the pieces of the orbit (h, h Omega)
-  iterations      steps of Newton's method
-  segments        pieces that it joined
-  base_hz, period_s (of one forcing period), version, study (as resolved)
-  contact_ratio, landing_phases and peak_prf are of one jumper, or a list for
-  several.
-
-Folder (--out):
-  study.toml, orbit.json, section.csv, multipliers.csv, switches.csv, orbit.nc
-  (these and the way around as arrays: xarray.open_dataset) and the figures
-  portrait and multipliers as SVG and PNG.
+Figures: portrait and multipliers, as SVG and PNG.
 
 If no orbit is found the exit code is 1, and the message says how far the search
 came.";
+    text(what, &Request::Orbit, tables)
+}
 
 /// Below `saltus continue --help`.
 pub(crate) const CONTINUE: &str = "\
@@ -278,58 +286,30 @@ Folder (--out):
   forcing periods after 150, the state carried on upwards and downwards.";
 
 /// Below `saltus lyapunov --help`.
-pub(crate) const LYAPUNOV: &str = "\
+pub(crate) fn lyapunov() -> String {
+    let what = "\
 The motion from [start] is run for lyapunov.transient forcing periods. From
 there on lyapunov.replicas pieces of it, one after the other and each
 lyapunov.periods long, are run side by side with the tangent flow; a switch
 multiplies that by its saltation matrix. Columns that part by more than rounding
 allows within a period are kept apart as often as it takes. An exponent is the
-mean growth of a small deviation, natural logarithm, per forcing period. The
-drive keeps its phase: its exponent, 0, is not counted.
+mean growth of a small deviation, natural logarithm, per forcing period; -inf is
+a direction that shrinks to nothing at a switch, as a relaxing leg at
+touch-down. Errors are of 20 batches of the whole record; intervals are by
+Student's t and hold if the motion forgets where it was within a twentieth of
+the record. The drive keeps its phase: its exponent, 0, is not counted.
 All exponents of plate.inertia = \"full\" take hours where those of \"condensed\"
-take seconds; lyapunov.exponents = 1 asks for the largest alone.
+take seconds; lyapunov.exponents = 1 asks for the largest alone.";
+    let tables = "\
+  exponents: a list of records; convergence (the exponents from the first
+  periods of the record, over how many these are): list and CSV.
 
-JSON (--json, and lyapunov.json in --out):
-  nature          what the motion is, by tests at a confidence of 0.999:
-    name          \"periodic\", \"quasi-periodic\", \"chaotic\", \"undecided\"
-    period        forcing periods; null if not periodic
-    confidence    that the test behind the name did not come out by chance; if
-                  undecided, that the largest exponent has the sign it shows
-    text          what the name means, or why there is none and what may help
-  from            \"orbit\": the motion has come to a cycle, and exponents are
-                  those of its multipliers; \"record\": means of the record
-  exponents       the largest first, but for their errors:
-    per_period    per forcing period; null for -inf, a direction that shrinks
-                  to nothing at a switch, as a relaxing leg at touch-down
-    standard_error
-                  from 20 batches of the whole record, rounding included; null
-                  if the record is too short for one
-    interval      [low, high]: holds the true value with a probability of 0.95,
-                  by Student's t, if the motion forgets where it was within a
-                  twentieth of the record
-    per_second, per_second_error
-                  the same in 1/s
-  sum             of these exponents, likewise
-  divergence      of the flow, a check of the sum:
-    per_period    its time integral over a period, on average
-    must_agree    whether it must be the sum, and reason
-    difference    sum less divergence; null where they need not agree
-  kaplan_yorke    dimension of the attractor in the section: value and
-                  standard_error; null if more exponents or a longer record
-                  are needed
-  status          as in `saltus simulate`; status_text the same in a sentence
-  states          of the model, the most exponents possible
-  periods_measured
-                  of all replicas together
-  transient, periods, replicas, base_hz, period_s, version, study (as resolved)
+Figure: convergence, as SVG and PNG.
 
-Folder (--out):
-  study.toml, lyapunov.json, convergence.csv (the exponents from the first
-  periods of the record, over how many these are), lyapunov.nc (as arrays:
-  xarray.open_dataset) and the figure convergence as SVG and PNG.
-
-Replicas that end early (chattering, ...) are told with what they measured, and
-exit code 1. Results are the same bits for any --threads.";
+Replicas that end early (chattering, ...) are reported with what they measured,
+and exit code 1. Results are the same bits for any --threads.";
+    text(what, &Request::Lyapunov, tables)
+}
 
 /// Below `saltus attractors --help`.
 pub(crate) const ATTRACTORS: &str = "\
@@ -459,19 +439,18 @@ result of `continue --from` is not where it was.";
 mod tests {
     #[test]
     fn lines_fit_a_terminal() {
+        let made = [super::simulate(), super::orbit(), super::lyapunov()];
         let all = [
-            super::SIMULATE,
             super::SWEEP,
             super::MAP,
             super::BASINS,
-            super::ORBIT,
             super::CONTINUE,
-            super::LYAPUNOV,
             super::ATTRACTORS,
             super::CITE,
             super::RERUN,
         ];
-        for line in all.iter().flat_map(|h| h.lines()) {
+        let made = made.iter().map(String::as_str);
+        for line in all.into_iter().chain(made).flat_map(str::lines) {
             assert!(line.chars().count() <= 80, "{line}");
         }
     }
