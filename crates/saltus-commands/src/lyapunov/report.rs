@@ -2,7 +2,7 @@
 
 use super::{Run, words};
 use crate::status;
-use saltus::orbits::{Exponent, Nature};
+use saltus::orbits::Exponent;
 use saltus::physics::ContactLaw;
 use saltus_config::{Inertia, Study};
 use serde::Serialize;
@@ -102,15 +102,12 @@ impl<'a> Report<'a> {
 
 impl Motion {
     fn new(run: &Run) -> Self {
-        let nature = run.verdict.nature;
+        let kind = run.verdict.kind;
         Self {
-            name: words::name(nature),
-            period: match nature {
-                Nature::Periodic(n) => Some(n),
-                _ => None,
-            },
+            name: kind.name(),
+            period: kind.period(),
             confidence: run.verdict.confidence,
-            text: words::meaning(nature),
+            text: words::meaning(&run.verdict),
         }
     }
 }

@@ -3,6 +3,7 @@
 use super::report::{Rate, Report};
 use super::{Run, words};
 use saltus::hybrid::Status;
+use saltus::orbits::MotionKind;
 use std::fmt::Write;
 
 /// A sum that is further from the divergence than this (per period) is told as wrong: far above what
@@ -22,7 +23,7 @@ pub(super) fn text(run: &Run, report: &Report) -> String {
     line(
         "motion",
         match report.nature.name {
-            "undecided" => "undecided".to_owned(),
+            name if run.verdict.kind == MotionKind::Undecided => name.to_owned(),
             name => format!("{name}, with a confidence of {sure}"),
         },
     );
