@@ -21,9 +21,9 @@ use std::sync::Arc;
 
 use saltus::hybrid::{Leg, Point, Status, record};
 use saltus::model::{Model, PreparedPlate, Setup};
-use saltus::orbits::{NewtonOptions, find_orbit};
+use saltus::orbits::{MotionKind, NewtonOptions, find_orbit};
 use saltus::study::{
-    Control, Grid, Kind, Search, Settled, StudyError, growth, map, place, settle, stroboscopic,
+    Control, Grid, Search, Settled, StudyError, growth, map, place, settle, stroboscopic,
 };
 
 /// Periods of the judge's transient, and of each exponent.
@@ -53,11 +53,11 @@ enum Name {
 }
 
 impl Name {
-    fn of(kind: Option<Kind>) -> Self {
+    fn of(kind: Option<MotionKind>) -> Self {
         match kind {
-            Some(Kind::Periodic(n)) => Self::Periodic(n as usize),
-            Some(Kind::QuasiPeriodic) => Self::Torus,
-            Some(Kind::Chaotic) => Self::Chaos,
+            Some(MotionKind::Periodic(n)) => Self::Periodic(n as usize),
+            Some(MotionKind::QuasiPeriodic) => Self::Torus,
+            Some(MotionKind::Chaotic) => Self::Chaos,
             _ => Self::Undecided,
         }
     }

@@ -1,15 +1,15 @@
 //! What says that an attractor is one, in JSON and in words.
 
 use super::report::Share;
-use saltus::orbits::Exponent;
+use saltus::orbits::{Exponent, MotionKind};
 use saltus::study::{Counted, Survival, Transient};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 /// Evidence for one attractor; what does not apply to its kind is null.
 #[derive(Clone, Serialize)]
 pub(super) struct Evidence {
-    /// "periodic", "quasi-periodic", "chaotic", "not-periodic".
-    pub(super) kind: &'static str,
+    #[serde(serialize_with = "by_name")]
+    pub(super) kind: MotionKind,
     /// Largest modulus of the Floquet multipliers of a cycle.
     pub(super) multiplier: Option<f64>,
     /// Largest Lyapunov exponent per forcing period, where it says what the motion is, and its standard error.
@@ -40,13 +40,17 @@ pub(super) struct Passing {
     pub(super) to: usize,
 }
 
+fn by_name<S: Serializer>(kind: &MotionKind, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_str(kind.name())
+}
+
 impl From<&Counted> for Evidence {
     fn from(counted: &Counted) -> Self {
         let motion = &counted.entry.attractor;
         let exponent = motion.exponent.filter(|_| motion.kind.never_repeats());
         let number = |of: fn(&Exponent) -> f64| exponent.as_ref().map(of);
         Self {
-            kind: motion.kind.name(),
+            kind: motion.kind,
             multiplier: motion.multiplier,
             exponent: number(|exponent| exponent.per_iterate),
             exponent_error: number(|exponent| exponent.standard_error),
@@ -89,14 +93,9 @@ impl Passing {
 }
 
 impl Evidence {
-    /// In datasets; 0 stands for no attractor.
+    /// Number in datasets; 0 stands for no attractor. An attractor is never undecided.
     pub(super) fn code(&self) -> u64 {
-        match self.kind {
-            "periodic" => 1,
-            "quasi-periodic" => 2,
-            "chaotic" => 3,
-            _ => 4,
-        }
+        1 + self.kind.code().min(MotionKind::NotPeriodic.code()) as u64
     }
 
     pub(super) fn in_words(&self) -> String {

@@ -15,7 +15,8 @@ use crate::models::Models;
 use crate::plane::{self, Loss};
 use crate::store::Store;
 use report::Report;
-use saltus::study::{Control, Kind, Lineages, Row, Search, Starts};
+use saltus::orbits::MotionKind;
+use saltus::study::{Control, Lineages, Row, Search, Starts};
 use saltus_config::{Parameter, Study};
 use saltus_results::Dataset;
 use std::io::{self, Write};
@@ -201,24 +202,20 @@ impl Run {
     fn kinds(&self, identity: usize) -> String {
         let all = self.found.rows.iter().flat_map(Row::attractors);
         let its = all.filter(|counted| counted.identity == identity);
-        let kinds: Vec<Kind> = its.map(|counted| counted.entry.attractor.kind).collect();
-        let periods = kinds.iter().filter_map(|kind| match kind {
-            Kind::Periodic(n) => Some(*n),
-            _ => None,
-        });
+        let kinds: Vec<MotionKind> = its.map(|counted| counted.entry.attractor.kind).collect();
+        let periods = kinds.iter().filter_map(|kind| kind.period());
         let ends = (periods.clone().min(), periods.max());
         let cycles = match ends {
             (Some(low), Some(high)) if low < high => Some(format!("{low}T to {high}T")),
             (Some(only), _) => Some(format!("{only}T")),
             _ => None,
         };
-        let is = |kind: Kind| kinds.contains(&kind);
         let others = [
-            (Kind::QuasiPeriodic, "quasi-periodic"),
-            (Kind::Chaotic, "chaotic"),
-            (Kind::NotPeriodic, "not periodic"),
+            (MotionKind::QuasiPeriodic, MotionKind::QuasiPeriodic.name()),
+            (MotionKind::Chaotic, MotionKind::Chaotic.name()),
+            (MotionKind::NotPeriodic, "not periodic"),
         ];
-        let others = others.into_iter().filter(|(kind, _)| is(*kind));
+        let others = others.into_iter().filter(|(kind, _)| kinds.contains(kind));
         let parts: Vec<String> = cycles
             .into_iter()
             .chain(others.map(|(_, name)| name.to_owned()))

@@ -4,7 +4,7 @@ use super::evidence::{Evidence, Passing};
 use super::section::{self, Section};
 use super::{Loss, Run};
 use crate::per_jumper::PerJumper;
-use saltus::study::{Counted, Fraction, Hysteresis, Identity, Kind, Lost, Turn};
+use saltus::study::{Counted, Fraction, Hysteresis, Identity, Lost, Turn};
 use saltus_config::{Parameter, Study};
 use serde::Serialize;
 
@@ -166,7 +166,7 @@ impl Attractor {
         };
         Self {
             number: counted.identity + 1,
-            period: period(motion.kind),
+            period: motion.kind.period(),
             evidence: counted.into(),
             drawn: counted.fraction.into(),
             contact_ratio: motion.contact_ratio.clone().into(),
@@ -181,7 +181,7 @@ impl Attractor {
 impl Attractor {
     /// `2T`, or `chaotic`.
     pub(super) fn name(&self) -> String {
-        let kind = || self.evidence.kind.to_owned();
+        let kind = || self.evidence.kind.name().to_owned();
         self.period.map_or_else(kind, |n| format!("{n}T"))
     }
 }
@@ -219,18 +219,11 @@ impl Loop {
             to: found.to,
             up: found.up + 1,
             down: found.down + 1,
-            period_up: period(found.kinds.0),
-            period_down: period(found.kinds.1),
+            period_up: found.kinds.0.period(),
+            period_down: found.kinds.1.period(),
             jump_up: found.jump_up,
             jump_down: found.jump_down,
         }
-    }
-}
-
-fn period(kind: Kind) -> Option<u32> {
-    match kind {
-        Kind::Periodic(n) => Some(n),
-        _ => None,
     }
 }
 

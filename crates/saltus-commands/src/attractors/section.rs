@@ -1,6 +1,6 @@
 //! Sections whose samples connect along the parameter: where a cycle was met says nothing.
 
-use saltus::study::{Counted, Kind, Lineages, Row};
+use saltus::study::{Counted, Lineages, Row};
 use std::collections::BTreeMap;
 
 /// Samples [z/eta, z'/(eta omega_h)] of each body.
@@ -12,7 +12,7 @@ pub(super) fn connected(found: &Lineages) -> Vec<Vec<Section>> {
     let mut before: BTreeMap<usize, Section> = BTreeMap::new();
     let mut turned = |counted: &Counted| {
         let mut section = counted.arrival.section.clone();
-        if matches!(counted.entry.attractor.kind, Kind::Periodic(_)) {
+        if counted.entry.attractor.kind.period().is_some() {
             let turn = match before.get(&counted.identity) {
                 Some(before) => nearest(before, &section),
                 None => lowest(&section),

@@ -163,7 +163,7 @@ fn attractor(row: &Row, one: &Attractor, jumper: usize) -> Vec<Vec<Value>> {
         Value::Integer(one.number as i64),
         Value::Integer(jumper as i64),
         one.period.into(),
-        one.evidence.kind.into(),
+        one.evidence.kind.name().into(),
         one.evidence.multiplier.into(),
         one.evidence.exponent.into(),
         one.evidence.exponent_error.into(),

@@ -2,7 +2,8 @@
 
 use super::Basins;
 use crate::plane::Plane;
-use saltus::study::{Entry, Kind};
+use saltus::orbits::MotionKind;
+use saltus::study::Entry;
 use saltus_results::{Class, ClassMap, Colour, Figure};
 
 /// A colour for each attractor, as far as there are some.
@@ -56,11 +57,10 @@ fn label(place: usize, entry: &Entry) -> String {
     let motion = &entry.attractor;
     let contact = motion.contact_ratio.first().copied().unwrap_or(f64::NAN);
     let what = match motion.kind {
-        Kind::Periodic(1) => "every forcing period".to_owned(),
-        Kind::Periodic(n) => format!("every {n} periods"),
-        Kind::QuasiPeriodic => "quasi-periodic".to_owned(),
-        Kind::Chaotic => "chaotic".to_owned(),
-        Kind::NotPeriodic | Kind::Undecided => "not periodic".to_owned(),
+        MotionKind::Periodic(1) => "every forcing period".to_owned(),
+        MotionKind::Periodic(n) => format!("every {n} periods"),
+        MotionKind::NotPeriodic | MotionKind::Undecided => "not periodic".to_owned(),
+        kind => kind.name().to_owned(),
     };
     format!("{}: {what}, {:.0} % contact", place + 1, 100.0 * contact)
 }

@@ -3,7 +3,7 @@
 use super::Basins;
 use crate::per_jumper::PerJumper;
 use crate::plane::{AxisReport, FirstFailure, Plane, Tally};
-use saltus::study::{Entry, Kind};
+use saltus::study::Entry;
 use saltus_config::Study;
 use serde::Serialize;
 
@@ -91,10 +91,7 @@ impl AttractorReport {
         Self {
             number,
             matched: None,
-            period: match motion.kind {
-                Kind::Periodic(n) => Some(n),
-                _ => None,
-            },
+            period: motion.kind.period(),
             kind: motion.kind.name(),
             pixels: entry.count,
             share: entry.share(plane.grid.len() as u64),

@@ -2,7 +2,7 @@
 
 use super::Plane;
 use super::report::Report;
-use saltus::study::Kind;
+use saltus::orbits::MotionKind;
 use std::fmt::Write;
 
 /// Attractors listed.
@@ -28,7 +28,7 @@ pub(super) fn text(plane: &Plane, report: &Report) -> String {
             .map(|c| format!("{c:.3}"))
             .collect();
         let over = report.tally.chaotic_over;
-        let over = over.filter(|_| attractor.kind == Kind::Chaotic.name());
+        let over = over.filter(|_| attractor.kind == MotionKind::Chaotic.name());
         let over = over.map_or(String::new(), |span| {
             format!(" for {} periods and more", span.min)
         });

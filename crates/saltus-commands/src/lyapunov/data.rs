@@ -4,7 +4,7 @@ use super::{Found, words};
 use crate::data::{about, base, each_number, whole, wholes};
 use crate::quantities as q;
 use crate::status;
-use saltus::orbits::{Exponent, Nature};
+use saltus::orbits::Exponent;
 use saltus::physics::ContactLaw;
 use saltus_config::Inertia;
 use saltus_results::{Dataset, Quantity, Table};
@@ -50,17 +50,17 @@ pub(crate) const QUANTITIES: &[Quantity] = &[
 ];
 
 pub(super) fn data(found: &Found) -> Dataset {
-    let (growth, how, nature) = (&found.growth, &found.how, found.verdict.nature);
+    let (growth, how, kind) = (&found.growth, &found.how, found.verdict.kind);
     let set = about(
         "Lyapunov exponents of people on a vibrating plate",
         &found.study,
     )
     .attribute(q::STATUS.name, growth.status.name())
     .attribute(q::STATUS_TEXT.name, status::text(&growth.status, None))
-    .attribute(q::NATURE.name, words::name(nature))
-    .attribute(q::NATURE_TEXT.name, words::meaning(nature))
+    .attribute(q::NATURE.name, kind.name())
+    .attribute(q::NATURE_TEXT.name, words::meaning(&found.verdict))
     .attribute(q::EXPONENTS_FROM.name, found.source())
-    .variable(q::PERIOD.is(period(nature)).gap(0))
+    .variable(q::PERIOD.is(whole(kind.period().unwrap_or(0))).gap(0))
     .variable(q::CONFIDENCE.is(found.verdict.confidence))
     .variable(q::STATES.is(whole(found.model.free_states())))
     .variable(q::TRANSIENT.is(whole(how.transient)))
@@ -69,13 +69,6 @@ pub(super) fn data(found: &Found) -> Dataset {
     .variable(q::PERIODS_MEASURED.is(whole(growth.spectrum.iterates())));
     let set = exponents(base(set, &found.model), found);
     convergence(sums(set, found), found)
-}
-
-fn period(nature: Nature) -> i32 {
-    match nature {
-        Nature::Periodic(n) => n as i32,
-        _ => 0,
-    }
 }
 
 fn exponents(set: Dataset, found: &Found) -> Dataset {

@@ -3,7 +3,7 @@
 use super::{Found, words};
 use crate::status;
 use saltus::hybrid::Status;
-use saltus::orbits::{Exponent, Nature};
+use saltus::orbits::{Exponent, MotionKind};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
@@ -17,19 +17,19 @@ pub(super) fn text(found: &Found) -> String {
         // writing to a string cannot fail
         let _ = writeln!(text, "{name:<12}{what}");
     };
-    let (growth, nature, scales) = (&found.growth, found.verdict.nature, found.model.scales());
+    let (growth, kind, scales) = (&found.growth, found.verdict.kind, found.model.scales());
     if growth.status != Status::Completed {
         line("status", status::text(&growth.status, None));
     }
     let sure = words::percent(found.verdict.confidence);
     line(
         "motion",
-        match nature {
-            Nature::Undecided(_) => "undecided".to_owned(),
-            _ => format!("{}, with a confidence of {sure}", words::name(nature)),
+        match kind {
+            MotionKind::Undecided => kind.name().to_owned(),
+            _ => format!("{}, with a confidence of {sure}", kind.name()),
         },
     );
-    line("", words::meaning(nature));
+    line("", words::meaning(&found.verdict));
     let (hertz, period) = (scales.omega / TAU, scales.period());
     line("base", format!("{hertz:.4} Hz, period {period:.6} s"));
     line("record", record(found));

@@ -1,29 +1,19 @@
-//! What a motion is, and how sure that is, for people.
+//! The kind of a motion, and how sure that is, for people.
 
-use saltus::orbits::{Doubt, Nature};
+use saltus::orbits::{Doubt, MotionKind, Verdict};
 
-/// The name of a nature.
-pub(super) fn name(nature: Nature) -> &'static str {
-    match nature {
-        Nature::Periodic(_) => "periodic",
-        Nature::QuasiPeriodic => "quasi-periodic",
-        Nature::Chaotic => "chaotic",
-        Nature::Undecided(_) => "undecided",
-    }
-}
-
-/// What the name means, or why there is none and what may help.
-pub(super) fn meaning(nature: Nature) -> String {
-    let text = match nature {
-        Nature::Periodic(1) => "it repeats every forcing period, and small deviations die out",
-        Nature::Periodic(n) => {
+/// Meaning of the name, or why there is none and what may help.
+pub(super) fn meaning(verdict: &Verdict) -> String {
+    let text = match verdict.kind {
+        MotionKind::Periodic(1) => "it repeats every forcing period, and small deviations die out",
+        MotionKind::Periodic(n) => {
             return format!("it repeats every {n} forcing periods, and small deviations die out");
         }
-        Nature::QuasiPeriodic => {
+        MotionKind::QuasiPeriodic => {
             "it never repeats, yet small deviations neither grow nor die out: a torus"
         }
-        Nature::Chaotic => "it never repeats, and small deviations grow, again and again",
-        Nature::Undecided(doubt) => reason(doubt),
+        MotionKind::Chaotic => "it never repeats, and small deviations grow, again and again",
+        MotionKind::NotPeriodic | MotionKind::Undecided => verdict.doubt.map_or("", reason),
     };
     text.to_owned()
 }

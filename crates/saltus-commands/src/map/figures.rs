@@ -1,10 +1,11 @@
 //! The figures of a map.
 
 use crate::plane::{Layers, Plane, Status};
+use saltus::orbits::MotionKind;
 use saltus_results::{Class, ClassMap, Colour, Figure};
 
 /// Periods with a colour of their own: doublings first, as they are the most frequent.
-const PERIODS: [u16; 9] = [1, 2, 4, 8, 3, 6, 5, 7, 16];
+const PERIODS: [u32; 9] = [1, 2, 4, 8, 3, 6, 5, 7, 16];
 
 /// The periods, and what is not periodic.
 pub(super) fn periods(plane: &Plane, layers: &Layers) -> Figure {
@@ -32,23 +33,18 @@ pub(super) fn periods(plane: &Plane, layers: &Layers) -> Figure {
         Class::new("Failed", Colour::FAILED),
     ];
     let other = PERIODS.len() as u8;
-    let class = |(&status, &period): (&Status, &u16)| match status {
-        Status::Periodic => order
+    let class = |status: &Status| match status {
+        Status::Motion(MotionKind::Periodic(n)) => order
             .iter()
-            .position(|&i| PERIODS[i] == period)
+            .position(|&i| PERIODS[i] == *n)
             .map_or(other, |place| place as u8),
-        Status::QuasiPeriodic => other + 1,
-        Status::Chaotic => other + 2,
-        Status::NotPeriodic => other + 3,
-        Status::Undecided => other + 4,
-        _ => other + 5,
+        Status::Motion(MotionKind::QuasiPeriodic) => other + 1,
+        Status::Motion(MotionKind::Chaotic) => other + 2,
+        Status::Motion(MotionKind::NotPeriodic) => other + 3,
+        Status::Motion(MotionKind::Undecided) => other + 4,
+        Status::Lost(_) => other + 5,
     };
-    let cells: Vec<u8> = layers
-        .status
-        .iter()
-        .zip(&layers.period)
-        .map(class)
-        .collect();
+    let cells: Vec<u8> = layers.status.iter().map(class).collect();
     let map = ClassMap::new(
         "The motion repeats",
         plane.figure_grid(),

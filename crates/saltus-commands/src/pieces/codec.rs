@@ -1,7 +1,6 @@
 //! Numbers and words as bytes: what the content of a piece is made of. Numbers come back to the bit.
 
-use saltus::orbits::Exponent;
-use saltus::study::Kind;
+use saltus::orbits::{Exponent, MotionKind};
 
 /// What stands for none.
 const NO_EXPONENT: Exponent = Exponent {
@@ -24,16 +23,9 @@ impl<'a> Writer<'a> {
     pub(crate) fn numbers(&mut self, values: &[f64]) {
         values.iter().for_each(|v| self.whole(v.to_bits()));
     }
-    pub(crate) fn kind(&mut self, kind: Kind) {
-        let (kind, period) = match kind {
-            Kind::Periodic(n) => (0, n),
-            Kind::QuasiPeriodic => (1, 0),
-            Kind::Chaotic => (2, 0),
-            Kind::NotPeriodic => (3, 0),
-            Kind::Undecided => (4, 0),
-        };
-        self.whole(kind);
-        self.whole(period.into());
+    pub(crate) fn kind(&mut self, kind: MotionKind) {
+        self.whole(kind.code() as u64);
+        self.whole(kind.period().unwrap_or(0).into());
     }
     pub(crate) fn exponent(&mut self, exponent: Option<Exponent>) {
         let (there, e) = (exponent.is_some(), exponent.unwrap_or(NO_EXPONENT));
@@ -73,14 +65,14 @@ impl<'a> Reader<'a> {
     pub(crate) fn lists(&mut self, lists: usize, numbers: usize) -> Option<Vec<Vec<f64>>> {
         (0..lists).map(|_| self.numbers(numbers)).collect()
     }
-    pub(crate) fn kind(&mut self) -> Option<Kind> {
+    pub(crate) fn kind(&mut self) -> Option<MotionKind> {
         let (kind, period) = (self.whole()?, self.whole()?);
         Some(match kind {
-            0 => Kind::Periodic(u32::try_from(period).ok()?),
-            1 => Kind::QuasiPeriodic,
-            2 => Kind::Chaotic,
-            3 => Kind::NotPeriodic,
-            4 => Kind::Undecided,
+            0 => MotionKind::Periodic(u32::try_from(period).ok()?),
+            1 => MotionKind::QuasiPeriodic,
+            2 => MotionKind::Chaotic,
+            3 => MotionKind::NotPeriodic,
+            4 => MotionKind::Undecided,
             _ => return None,
         })
     }

@@ -4,7 +4,7 @@ use crate::pieces::{Reader, Writer};
 use crate::status;
 use saltus::model::ModelError;
 use saltus::physics::PhysicsError;
-use saltus::study::{Attractor, Found, Kind, Lost};
+use saltus::study::{Attractor, Found, Lost};
 
 /// What became of one pixel.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,10 +105,7 @@ fn write_motion(motion: &Attractor, out: &mut Writer) {
 
 fn motion(from: &mut Reader) -> Option<Attractor> {
     let kind = from.kind()?;
-    let samples = match kind {
-        Kind::Periodic(n) => n as usize,
-        _ => 0,
-    };
+    let samples = kind.period().map_or(0, |n| n as usize);
     let bodies = usize::try_from(from.whole()?).ok()?;
     let (contact_ratio, peak_reaction) = (from.numbers(bodies)?, from.numbers(bodies)?);
     let (peak_acceleration, rest) = (from.number()?, from.number()?);
@@ -141,12 +138,12 @@ fn motion(from: &mut Reader) -> Option<Attractor> {
 mod tests {
     use super::{Cell, Loss};
     use crate::pieces::{Reader, Writer};
-    use saltus::orbits::Exponent;
-    use saltus::study::{Attractor, Kind};
+    use saltus::orbits::{Exponent, MotionKind};
+    use saltus::study::Attractor;
 
     fn cells() -> Vec<Cell> {
         let cycle = Attractor {
-            kind: Kind::Periodic(2),
+            kind: MotionKind::Periodic(2),
             contact_ratio: vec![0.1 + 0.2, -0.0],
             peak_reaction: vec![1e-308, 3.0],
             peak_acceleration: 1.0 / 3.0,
@@ -159,7 +156,7 @@ mod tests {
             confidence: None,
         };
         let chaos = Attractor {
-            kind: Kind::Chaotic,
+            kind: MotionKind::Chaotic,
             exponent: Some(Exponent {
                 per_iterate: 0.1,
                 standard_error: 0.01,

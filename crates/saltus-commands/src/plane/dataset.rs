@@ -11,14 +11,15 @@ pub(crate) fn dataset(title: &str, study: &Study, plane: &Plane, layers: Layers)
     let (x, y) = (plane.x.variable(), plane.y.variable());
     let over = [y.as_str(), x.as_str()];
     let jumpers = study.jumper.len();
-    let status: Vec<u8> = layers.status.iter().map(|&status| status as u8).collect();
+    let status: Vec<u8> = layers.status.iter().map(|status| status.code()).collect();
+    let period: Vec<u16> = layers.status.iter().map(|status| status.period()).collect();
     let chaotic = layers.chaotic_periods();
-    let meanings = Status::ALL.map(|status| (status as i32, status.name().replace('-', "_")));
+    let meanings = (0..).zip(Status::names().map(|name| name.replace('-', "_")));
     let mut dataset = about(title, study)
         .coordinate(coordinate(&plane.y.parameter, &plane.grid.y))
         .coordinate(coordinate(&plane.x.parameter, &plane.grid.x))
         .variable(
-            Variable::new("period", &over, layers.period)
+            Variable::new("period", &over, period)
                 .long_name(
                     "Period of the attractor in forcing periods, 0 where it has none up to 32",
                 )

@@ -2,82 +2,99 @@
 
 use super::{Cell, Loss, Plane};
 use crate::failure::Failure;
-use saltus::study::Kind;
+use saltus::orbits::MotionKind;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// What became of a pixel, by the code it has in the layer `status`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+/// The end of a pixel: a motion, or the reason why there is none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Status {
-    Periodic,
-    QuasiPeriodic,
-    Chaotic,
-    NotPeriodic,
-    Undecided,
+    Motion(MotionKind),
+    Lost(Ending),
+}
+
+/// Ways in which a pixel has no motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Ending {
     NoModel,
     Chattering,
     NotFinite,
     TooManySteps,
     /// Anything else that ends a run.
-    Ended,
+    Other,
 }
 
-impl Status {
-    pub(crate) const ALL: [Self; 10] = [
-        Self::Periodic,
-        Self::QuasiPeriodic,
-        Self::Chaotic,
-        Self::NotPeriodic,
-        Self::Undecided,
+impl Ending {
+    const ALL: [Self; 5] = [
         Self::NoModel,
         Self::Chattering,
         Self::NotFinite,
         Self::TooManySteps,
-        Self::Ended,
+        Self::Other,
     ];
 
-    pub(crate) fn name(self) -> &'static str {
+    fn name(self) -> &'static str {
         match self {
-            Self::Periodic => "periodic",
-            Self::QuasiPeriodic => "quasi-periodic",
-            Self::Chaotic => "chaotic",
-            Self::NotPeriodic => "not-periodic",
-            Self::Undecided => "undecided",
             Self::NoModel => "no-model",
             Self::Chattering => "chattering",
             Self::NotFinite => "not-finite",
             Self::TooManySteps => "too-many-steps",
-            Self::Ended => "ended",
+            Self::Other => "ended",
+        }
+    }
+
+    fn of(loss: &Loss) -> Self {
+        let named = |ending: &Self| ending.name() == loss.status;
+        Self::ALL.into_iter().find(named).unwrap_or(Self::Other)
+    }
+}
+
+impl Status {
+    /// The names of all, each at the place of its [`Self::code`].
+    pub(super) fn names() -> impl Iterator<Item = &'static str> {
+        let endings = Ending::ALL.map(Ending::name);
+        MotionKind::NAMES.into_iter().chain(endings)
+    }
+
+    /// Number in the layer `status`.
+    pub(super) fn code(self) -> u8 {
+        match self {
+            Self::Motion(kind) => kind.code() as u8,
+            Self::Lost(ending) => MotionKind::NAMES.len() as u8 + ending as u8,
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Motion(kind) => kind.name(),
+            Self::Lost(ending) => ending.name(),
         }
     }
 
     fn of(cell: &Cell) -> Self {
         match &cell.attractor {
-            Ok(motion) => match motion.kind {
-                Kind::Periodic(_) => Self::Periodic,
-                Kind::QuasiPeriodic => Self::QuasiPeriodic,
-                Kind::Chaotic => Self::Chaotic,
-                Kind::NotPeriodic => Self::NotPeriodic,
-                Kind::Undecided => Self::Undecided,
-            },
-            Err(loss) => {
-                let named = |status: &&Self| status.name() == loss.status;
-                Self::ALL.iter().find(named).copied().unwrap_or(Self::Ended)
-            }
+            Ok(motion) => Self::Motion(motion.kind),
+            Err(loss) => Self::Lost(Ending::of(loss)),
         }
     }
 
     /// Whether there is a motion, periodic or not.
     pub(crate) fn is_motion(self) -> bool {
-        self <= Self::Undecided
+        matches!(self, Self::Motion(_))
+    }
+
+    /// Forcing periods of a cycle, 0 where there is none.
+    pub(super) fn period(self) -> u16 {
+        match self {
+            Self::Motion(MotionKind::Periodic(n)) => n as u16,
+            _ => 0,
+        }
     }
 }
 
 /// All layers, row by row as the grid; NaN where there is no motion.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Layers {
-    /// 0 where not periodic.
-    pub(crate) period: Vec<u16>,
     pub(crate) status: Vec<Status>,
     /// Jumper by jumper.
     pub(crate) contact_ratio: Vec<Vec<f64>>,
@@ -153,10 +170,6 @@ impl Layers {
         if let (None, Err(loss)) = (&self.first_loss, &cell.attractor) {
             self.first_loss = Some((self.status.len(), loss.clone()));
         }
-        self.period.push(match motion.map(|m| m.kind) {
-            Some(Kind::Periodic(n)) => n as u16,
-            _ => 0,
-        });
         self.status.push(Status::of(cell));
         self.peak_acceleration
             .push(motion.map_or(f64::NAN, |m| m.peak_acceleration));
@@ -180,7 +193,8 @@ impl Layers {
             *status.entry(one.name()).or_default() += 1;
         }
         let mut periods: BTreeMap<u16, usize> = BTreeMap::new();
-        for &period in self.period.iter().filter(|&&period| period > 0) {
+        let all = self.status.iter().map(|status| status.period());
+        for period in all.filter(|&period| period > 0) {
             *periods.entry(period).or_default() += 1;
         }
         let share = |(period, pixels): (u16, usize)| PeriodShare {
@@ -201,7 +215,7 @@ impl Layers {
     pub(crate) fn chaotic_periods(&self) -> Vec<u32> {
         let pixels = self.status.iter().zip(&self.periods_run);
         let chaotic = |(&status, &run): (&Status, &u32)| match status {
-            Status::Chaotic => run,
+            Status::Motion(MotionKind::Chaotic) => run,
             _ => 0,
         };
         pixels.map(chaotic).collect()
@@ -231,11 +245,9 @@ impl Layers {
 impl Tally {
     /// Pixels that are undecided or failed.
     pub(crate) fn without_attractor(&self) -> usize {
-        let known = Status::ALL
-            .iter()
-            .filter(|status| **status < Status::Undecided);
-        let known: Vec<&str> = known.map(|status| status.name()).collect();
-        let rest = self.status.iter().filter(|(name, _)| !known.contains(name));
+        let known =
+            |name: &&str| MotionKind::NAMES.contains(name) && *name != MotionKind::Undecided.name();
+        let rest = self.status.iter().filter(|(name, _)| !known(name));
         rest.map(|(_, pixels)| pixels).sum()
     }
 
@@ -248,15 +260,15 @@ impl Tally {
             .iter()
             .map(|p| format!("  {:>5.1} %  {}T", percent(p.pixels), p.period))
             .collect();
-        let periodic = Status::Periodic.name();
-        let others = Status::ALL.iter().filter_map(|status| {
-            let pixels = self.status.get(status.name())?;
-            let shown = status.name() != periodic;
-            let over = self.chaotic_over.filter(|_| *status == Status::Chaotic);
+        // the first name, of cycles, is there by their periods
+        let others = Status::names().skip(1).filter_map(|name| {
+            let pixels = self.status.get(name)?;
+            let over = self.chaotic_over;
+            let over = over.filter(|_| name == MotionKind::Chaotic.name());
             let over = over.map_or(String::new(), |span| {
                 format!(" for {} periods and more", span.min)
             });
-            shown.then(|| format!("  {:>5.1} %  {}{over}", percent(*pixels), status.name()))
+            Some(format!("  {:>5.1} %  {name}{over}", percent(*pixels)))
         });
         lines.extend(others);
         lines.join("\n") + "\n"

@@ -3,8 +3,8 @@
 use super::Run;
 use crate::per_jumper::PerJumper;
 use crate::status;
-use saltus::orbits::Exponent;
-use saltus::study::{Kind, Pass};
+use saltus::orbits::{Exponent, MotionKind};
+use saltus::study::Pass;
 use saltus_config::Study;
 use serde::Serialize;
 
@@ -88,7 +88,7 @@ impl<'a> Row<'a> {
                 .map(|i| row.contact_ratio.get(i).copied().unwrap_or(f64::NAN))
                 .collect(),
             label: label.map(|label| name(label.kind)),
-            period: label.and_then(|label| period(label.kind)),
+            period: label.and_then(|label| label.kind.period()),
             confidence: label.and_then(|label| label.confidence),
             exponents: run.exponents[index].iter().map(rate).collect(),
             status: row.status.as_ref().map_or("no-model", |end| end.name()),
@@ -107,22 +107,16 @@ fn of_each<'a>(run: &Run, samples: &'a [Vec<f64>]) -> PerJumper<&'a [f64]> {
         .collect()
 }
 
-/// All names of motions.
-pub(super) const LABELS: [&str; 4] = ["periodic", "quasi-periodic", "chaotic", "undecided"];
+/// All names of motions: a sweep asks for exponents, so nothing stays at "not-periodic".
+pub(super) const LABELS: [&str; 4] = {
+    let [periodic, quasi_periodic, chaotic, _, undecided] = MotionKind::NAMES;
+    [periodic, quasi_periodic, chaotic, undecided]
+};
 
-fn name(kind: Kind) -> &'static str {
-    LABELS[match kind {
-        Kind::Periodic(_) => 0,
-        Kind::QuasiPeriodic => 1,
-        Kind::Chaotic => 2,
-        Kind::NotPeriodic | Kind::Undecided => 3,
-    }]
-}
-
-fn period(kind: Kind) -> Option<u32> {
+fn name(kind: MotionKind) -> &'static str {
     match kind {
-        Kind::Periodic(n) => Some(n),
-        _ => None,
+        MotionKind::NotPeriodic => MotionKind::Undecided.name(),
+        kind => kind.name(),
     }
 }
 

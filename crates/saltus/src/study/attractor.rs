@@ -11,7 +11,7 @@ use std::sync::OnceLock;
 
 use saltus_hybrid::integrate_stream;
 use saltus_hybrid::{End, IntegrateError, Leg, Point, Sample, Status, Step, System, Task};
-use saltus_orbits::{Closeness, Exponent, OnCycle, Recurrence, Samples};
+use saltus_orbits::{Closeness, Exponent, MotionKind, OnCycle, Recurrence, Samples};
 
 use super::confirm::{self, Near};
 use super::doubt::{self, Doubtful};
@@ -30,7 +30,7 @@ pub struct Search {
     /// 1e-6 eta; without it each start takes all its periods.
     pub early_stop: bool,
     /// Forcing periods, at most, over which the largest exponent of a motion without a period is followed, to
-    /// say what it is. 0 leaves it at [`Kind::NotPeriodic`].
+    /// say what it is. 0 leaves it at [`MotionKind::NotPeriodic`].
     pub exponent: u64,
     /// Forcing periods for which a motion that was found to be chaotic is run on, to see whether it stays so. A
     /// transient that outlives all of these is called chaotic; [`Found::periods`] says over how many it was seen.
@@ -72,7 +72,7 @@ impl Found {
     pub(super) fn undecided_at(&self) -> Option<&Point> {
         let motion = self.attractor.as_ref().ok()?;
         let arrival = self.arrival.as_ref()?;
-        (motion.kind == Kind::Undecided).then_some(&arrival.point)
+        (motion.kind == MotionKind::Undecided).then_some(&arrival.point)
     }
 }
 
@@ -80,18 +80,19 @@ impl Found {
     /// Whether there is a motion, and no period of it is known.
     fn has_no_period(&self) -> bool {
         let kind = self.attractor.as_ref().map(|motion| motion.kind);
-        matches!(kind, Ok(Kind::NotPeriodic | Kind::Undecided))
+        matches!(kind, Ok(MotionKind::NotPeriodic | MotionKind::Undecided))
     }
 
     fn is_chaotic(&self) -> bool {
         let kind = self.attractor.as_ref().map(|motion| motion.kind);
-        kind == Ok(Kind::Chaotic)
+        kind == Ok(MotionKind::Chaotic)
     }
 
     /// This chaotic motion, run on to what `later` says: still without a period, or not.
     fn followed_by(&self, later: Self) -> Self {
         let periods = self.periods + later.periods;
-        let chaotic = matches!(&later.attractor, Ok(motion) if motion.kind == Kind::NotPeriodic);
+        let chaotic =
+            matches!(&later.attractor, Ok(motion) if motion.kind == MotionKind::NotPeriodic);
         Self {
             periods,
             attractor: if chaotic {
@@ -123,42 +124,6 @@ pub enum Lost {
     Ended(Status),
 }
 
-/// What kind of motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Kind {
-    /// A cycle of so many forcing periods, at most 32.
-    Periodic(u32),
-    /// On a torus: its largest exponent is zero far more closely than chance allows.
-    QuasiPeriodic,
-    /// Its largest exponent is positive.
-    Chaotic,
-    /// No cycle of at most 32 periods, and nobody asked for its exponent.
-    NotPeriodic,
-    /// Still on its way when the time was up, on a longer cycle, or its exponent too small to tell its sign.
-    Undecided,
-}
-
-impl Kind {
-    /// As in results; of a cycle without its period.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Periodic(_) => "periodic",
-            Self::QuasiPeriodic => "quasi-periodic",
-            Self::Chaotic => "chaotic",
-            Self::NotPeriodic => "not-periodic",
-            Self::Undecided => "undecided",
-        }
-    }
-
-    /// Whether it is known not to repeat.
-    pub fn never_repeats(self) -> bool {
-        matches!(
-            self,
-            Self::QuasiPeriodic | Self::Chaotic | Self::NotPeriodic
-        )
-    }
-}
-
 /// Smallest and largest value.
 pub type Range = [f64; 2];
 
@@ -166,7 +131,7 @@ pub type Range = [f64; 2];
 #[derive(Clone, Debug, PartialEq)]
 pub struct Attractor {
     /// What it is.
-    pub kind: Kind,
+    pub kind: MotionKind,
     /// Part of the time on the floor, of each body.
     pub contact_ratio: Vec<f64>,
     /// Largest plate reaction force on each body, in units of its weight.
@@ -468,7 +433,8 @@ where
                     });
                 }
                 Conclusion::GoOn(point) => {
-                    let (attractor, section) = motion.as_it_looks(&recording, Kind::Undecided);
+                    let (attractor, section) =
+                        motion.as_it_looks(&recording, MotionKind::Undecided);
                     self.found = Some(motion.found(attractor, Arrival { point, section }));
                 }
                 Conclusion::Is(seen) => {
@@ -519,7 +485,7 @@ impl Motion {
             .settled
             .take()
             .or_else(|| self.samples.settled(Closeness::FAIR));
-        let looks = |motion: &Self, kind: Kind, rest: f64| {
+        let looks = |motion: &Self, kind: MotionKind, rest: f64| {
             let (attractor, section) = motion.as_it_looks(recording, kind);
             let arrival = Arrival {
                 point: end.clone(),
@@ -528,7 +494,7 @@ impl Motion {
             Conclusion::Is(Box::new((Attractor { rest, ..attractor }, arrival)))
         };
         if let Some(on) = on.filter(|on| on.is_sure() && !search.confirm) {
-            return looks(self, Kind::Periodic(on.period), on.rest);
+            return looks(self, MotionKind::Periodic(on.period), on.rest);
         }
         match confirm::cycle(&self.model, end, &self.samples, control) {
             Near::Stable(orbit) => match around(&self.model, &orbit, control) {
@@ -542,15 +508,19 @@ impl Motion {
             Near::Nothing if on.is_some() || self.samples.judge() == Recurrence::Drifting => {
                 Conclusion::GoOn(end.clone())
             }
-            Near::Nothing => looks(self, Kind::NotPeriodic, 0.0),
+            Near::Nothing => looks(self, MotionKind::NotPeriodic, 0.0),
         }
     }
 
     /// A motion of this kind, as its last samples and the recording show it, and its section: the samples of the cycle, or
     /// of the last recorded periods.
-    fn as_it_looks(&self, recording: &Recording, kind: Kind) -> (Attractor, Vec<Vec<[f64; 2]>>) {
+    fn as_it_looks(
+        &self,
+        recording: &Recording,
+        kind: MotionKind,
+    ) -> (Attractor, Vec<Vec<[f64; 2]>>) {
         let count = match kind {
-            Kind::Periodic(n) => n as usize,
+            MotionKind::Periodic(n) => n as usize,
             _ => recording
                 .periods()
                 .min(Samples::ROWS)

@@ -6,7 +6,8 @@
 //! at the samples overlap by more than half of the shorter one, for every body. A finite record of chaos
 //! shows its band only roughly, so this rather joins two such attractors than invents one.
 
-use super::attractor::{Attractor, Kind, Range};
+use super::attractor::{Attractor, Range};
+use saltus_orbits::MotionKind;
 
 /// Samples that differ by no more than this (eta) may be of one cycle; twice what
 /// a slow transient is allowed to leave of each, and as much again.
@@ -42,7 +43,9 @@ impl Entry {
     /// Whether `motion` is on this attractor.
     pub(super) fn holds(&self, motion: &Attractor) -> bool {
         match (motion.kind, self.attractor.kind) {
-            (Kind::Periodic(n), Kind::Periodic(m)) if n == m => same_cycle(motion, &self.attractor),
+            (MotionKind::Periodic(n), MotionKind::Periodic(m)) if n == m => {
+                same_cycle(motion, &self.attractor)
+            }
             (a, b) if a.never_repeats() && b.never_repeats() => {
                 same_band(&motion.ranges, &self.ranges)
             }
@@ -63,7 +66,7 @@ impl Catalogue {
 
     /// As [`Self::file`], for a motion from elsewhere that says nothing about shares.
     pub(super) fn file_uncounted(&mut self, start: usize, motion: Attractor) -> Option<usize> {
-        if motion.kind == Kind::Undecided {
+        if motion.kind == MotionKind::Undecided {
             return None;
         }
         let known = self.entries.iter().position(|entry| entry.holds(&motion));
@@ -157,7 +160,7 @@ mod tests {
     fn cycle(z: &[f64], rest: f64) -> Attractor {
         let range = z.iter().fold([f64::MAX, f64::MIN], |r, &z| hull(r, [z, z]));
         Attractor {
-            kind: Kind::Periodic(z.len() as u32),
+            kind: MotionKind::Periodic(z.len() as u32),
             contact_ratio: vec![0.5],
             peak_reaction: vec![3.0],
             peak_acceleration: 2.0,
@@ -173,7 +176,7 @@ mod tests {
 
     fn band(low: f64, high: f64) -> Attractor {
         Attractor {
-            kind: Kind::NotPeriodic,
+            kind: MotionKind::NotPeriodic,
             ranges: vec![([low, high], [low, high])],
             z: vec![vec![]],
             v: vec![vec![]],
@@ -218,7 +221,7 @@ mod tests {
             all.file(start, cycle(&[*z], 0.0));
         }
         let lost = Attractor {
-            kind: Kind::Undecided,
+            kind: MotionKind::Undecided,
             ..cycle(&[9.0], 0.0)
         };
         assert_eq!(all.file(5, lost), None);

@@ -3,11 +3,12 @@
 //! Each comes with the evidence that it is one: a cycle with its Floquet multipliers, a torus with an exponent that is
 //! zero, chaos with an exponent and with motions that were watched and did not leave it.
 
-use super::attractor::{Arrival, Found, Kind, Lost};
+use super::attractor::{Arrival, Found, Lost};
 use super::basins::{Catalogue, Entry};
 use super::fraction::Fraction;
 use super::survival::Survival;
 use saltus_hybrid::Point;
+use saltus_orbits::MotionKind;
 use std::collections::BTreeSet;
 
 /// What all starts of a box came to. The counts add up to the number of starts.
@@ -77,7 +78,7 @@ impl Tally {
     pub(super) fn count(&mut self, found: Found) {
         self.starts += 1;
         match (found.attractor, found.arrival) {
-            (Ok(motion), _) if motion.kind == Kind::Undecided => self.undecided += 1,
+            (Ok(motion), _) if motion.kind == MotionKind::Undecided => self.undecided += 1,
             (Ok(motion), Some(arrival)) => {
                 let number = self.catalogue.file(self.met, motion);
                 self.keep(number, arrival);
@@ -121,19 +122,19 @@ impl Tally {
     }
 
     /// What kind of motion attractor `number` is.
-    pub(super) fn kind(&self, number: usize) -> Kind {
+    pub(super) fn kind(&self, number: usize) -> MotionKind {
         self.catalogue.entries()[number].attractor.kind
     }
 
     /// Whether there is evidence that attractor `number` is one.
     pub(super) fn is_proved(&self, number: usize) -> bool {
         match self.kind(number) {
-            Kind::Periodic(_) => {
+            MotionKind::Periodic(_) => {
                 let motion = &self.catalogue.entries()[number].attractor;
                 motion.multiplier.is_some()
             }
-            Kind::Chaotic | Kind::NotPeriodic => self.survivals[number].is_some(),
-            Kind::QuasiPeriodic | Kind::Undecided => true,
+            MotionKind::Chaotic | MotionKind::NotPeriodic => self.survivals[number].is_some(),
+            MotionKind::QuasiPeriodic | MotionKind::Undecided => true,
         }
     }
 

@@ -7,9 +7,9 @@
 use std::sync::OnceLock;
 
 use saltus_hybrid::{End, Leg, Method, Point, Sample, Status, System, Task, integrate_stream};
-use saltus_orbits::{Criteria, Nature, Samples, Spectrum, Verdict, judge};
+use saltus_orbits::{Criteria, MotionKind, Samples, Spectrum, Verdict, judge};
 
-use super::attractor::{Found, Kind, Lost, Refused, coordinates, width};
+use super::attractor::{Found, Lost, Refused, coordinates, width};
 use super::confirm::{self, Near};
 use super::recording::around;
 use super::{Control, Search, StudyError};
@@ -242,7 +242,7 @@ impl Motion {
         else {
             return;
         };
-        if !matches!(verdict.nature, Nature::Chaotic | Nature::QuasiPeriodic) {
+        if !verdict.kind.never_repeats() {
             let near = confirm::cycle(&self.model, &arrival.point, &self.samples, control);
             if let Near::Stable(orbit) = near
                 && let Some(cycle) = around(&self.model, &orbit, control)
@@ -253,10 +253,9 @@ impl Motion {
         }
         motion.exponent = Some(verdict.exponent);
         motion.confidence = Some(verdict.confidence);
-        motion.kind = match verdict.nature {
-            Nature::QuasiPeriodic => Kind::QuasiPeriodic,
-            Nature::Chaotic => Kind::Chaotic,
-            Nature::Periodic(_) | Nature::Undecided(_) => Kind::Undecided,
+        motion.kind = match verdict.kind {
+            kind if kind.never_repeats() => kind,
+            _ => MotionKind::Undecided,
         };
     }
 }

@@ -14,6 +14,7 @@
 //!
 //! `matching` says when two attractors are the same, and `lineages` what follows.
 
+use saltus_orbits::MotionKind;
 use std::collections::BTreeMap;
 use std::sync::atomic::Ordering;
 
@@ -21,7 +22,7 @@ use super::census::{Census, Tally};
 use super::lineages::{Lineages, Row};
 use super::matching::{Links, Node, Way};
 use super::survival::Survival;
-use super::{Control, Found, Kind, Search, Starts, StudyError, attractors};
+use super::{Control, Found, Search, Starts, StudyError, attractors};
 use crate::model::{Model, ModelError};
 use saltus_hybrid::{IntegrateError, Point};
 
@@ -253,7 +254,7 @@ impl Journey<'_> {
         let (at, chaos) = node;
         let is_cycle = |found: &&Found| {
             let kind = found.attractor.as_ref().map(|motion| motion.kind);
-            matches!(kind, Ok(Kind::Periodic(_)))
+            matches!(kind, Ok(MotionKind::Periodic(_)))
         };
         let ended: Vec<&Found> = watched.iter().filter(is_cycle).collect();
         let survival = Survival {
@@ -292,7 +293,7 @@ impl Journey<'_> {
         let errand = self.errand(node);
         match tally.kind(node.1) {
             _ if tally.is_proved(node.1) => self.both_ways(&errand),
-            Kind::Chaotic | Kind::NotPeriodic => {
+            MotionKind::Chaotic | MotionKind::NotPeriodic => {
                 self.unwatched.push(node);
                 Vec::new()
             }

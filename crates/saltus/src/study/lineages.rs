@@ -4,12 +4,13 @@
 //! up to the end of its attractor A and jumps to B; carried down again it stays on B, so that below the jump the two
 //! ways differ as far down as A and B both exist.
 
+use saltus_orbits::MotionKind;
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::Range;
 use super::attractor::Attractor;
 use super::census::{Census, Counted};
 use super::matching::{Links, Node, Way, matches};
-use super::{Kind, Range};
 use crate::model::ModelError;
 
 /// The attractors along a parameter.
@@ -69,8 +70,8 @@ pub struct Hysteresis {
     pub up: usize,
     /// Number of the attractor on the way down.
     pub down: usize,
-    /// Kind of the first on top, where it jumps, and of the second at the bottom.
-    pub kinds: (Kind, Kind),
+    /// MotionKind of the first on top, where it jumps, and of the second at the bottom.
+    pub kinds: (MotionKind, MotionKind),
     /// Between which values the motion on the way up jumps to the other attractor; `None` if it does not.
     pub jump_up: Option<Range>,
     /// Between which values the motion on the way down does; a loop is closed if both jump.
@@ -200,7 +201,7 @@ mod tests {
     use saltus_hybrid::Point;
 
     /// An attractor with these heights, at rest.
-    fn counted(kind: Kind, heights: &[f64]) -> Counted {
+    fn counted(kind: MotionKind, heights: &[f64]) -> Counted {
         let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
         let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let motion = Attractor {
@@ -234,7 +235,7 @@ mod tests {
     }
 
     fn cycle(heights: &[f64]) -> Counted {
-        counted(Kind::Periodic(heights.len() as u32), heights)
+        counted(MotionKind::Periodic(heights.len() as u32), heights)
     }
 
     /// Rows at 0, 1, ... with these attractors.
@@ -322,7 +323,7 @@ mod tests {
         let all = [
             cycle(&[0.5]),
             cycle(&[0.4, 0.6]),
-            counted(Kind::NotPeriodic, &band),
+            counted(MotionKind::NotPeriodic, &band),
             cycle(&[0.3, 0.4, 0.6, 0.7]),
             cycle(&[0.3, 0.6, 0.7]),
         ];

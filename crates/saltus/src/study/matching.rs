@@ -10,9 +10,9 @@
 //! a motion that jumps to another one does not. A loop that lies between two neighbouring values is not
 //! seen: what jumps there and back keeps its number, if the periods allow it.
 
+use saltus_orbits::MotionKind;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::Kind;
 use super::census::Counted;
 use super::lineages::Row;
 
@@ -79,7 +79,7 @@ pub(super) fn matches(rows: &[Row], links: &Links) -> BTreeMap<Node, Node> {
 /// Whether one can turn into the other without a jump.
 fn may_become(a: &Counted, b: &Counted) -> bool {
     match (a.entry.attractor.kind, b.entry.attractor.kind) {
-        (Kind::Periodic(n), Kind::Periodic(m)) => {
+        (MotionKind::Periodic(n), MotionKind::Periodic(m)) => {
             let (short, long) = (n.min(m), n.max(m));
             long.is_multiple_of(short) && (long / short).is_power_of_two()
         }

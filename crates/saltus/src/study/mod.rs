@@ -25,7 +25,7 @@ mod survival;
 mod sweep;
 mod trajectory;
 
-pub use attractor::{Arrival, Attractor, Found, Kind, Lost, Range, Search, attractors};
+pub use attractor::{Arrival, Attractor, Found, Lost, Range, Search, attractors};
 pub use basins::{Catalogue, Entry, SAME};
 pub use census::{Census, Counted, Transient};
 pub(crate) use ensemble::in_parallel;

@@ -1,9 +1,9 @@
 //! What a motion does to floor and people, period by period.
 
 use saltus_hybrid::{End, Leg, Point, Sample, Step, Task, integrate};
-use saltus_orbits::{Orbit, Place};
+use saltus_orbits::{MotionKind, Orbit, Place};
 
-use super::attractor::{Arrival, Attractor, Kind, Range};
+use super::attractor::{Arrival, Attractor, Range};
 use super::peaks::Peaks;
 use super::{Control, point};
 use crate::model::{Contact, Model, Probe};
@@ -62,11 +62,16 @@ impl Recording {
     }
 
     /// A motion of this kind with this section, `section[body][sample]`.
-    pub(super) fn motion(&self, model: &Model, kind: Kind, section: &[Vec<[f64; 2]>]) -> Attractor {
+    pub(super) fn motion(
+        &self,
+        model: &Model,
+        kind: MotionKind,
+        section: &[Vec<[f64; 2]>],
+    ) -> Attractor {
         let recorded = self.periods();
         // whole cycles only, the last ones
         let used = match kind {
-            Kind::Periodic(n) if n as usize <= recorded => recorded - recorded % n as usize,
+            MotionKind::Periodic(n) if n as usize <= recorded => recorded - recorded % n as usize,
             _ => recorded,
         };
         let last = recorded - used..recorded;
@@ -80,7 +85,7 @@ impl Recording {
         };
         let of_cycle = |part: usize| -> Vec<Vec<f64>> {
             let samples = |body: &Vec<[f64; 2]>| match kind {
-                Kind::Periodic(_) => body.iter().map(|sample| sample[part]).collect(),
+                MotionKind::Periodic(_) => body.iter().map(|sample| sample[part]).collect(),
                 _ => Vec::new(),
             };
             section.iter().map(samples).collect()
@@ -150,7 +155,7 @@ pub(super) fn around(
         points.iter().map(sample).collect()
     };
     let section: Vec<Vec<[f64; 2]>> = (0..model.setup().jumpers.len()).map(body).collect();
-    let kind = Kind::Periodic(orbit.period() as u32);
+    let kind = MotionKind::Periodic(orbit.period() as u32);
     let motion = Attractor {
         multiplier: orbit
             .multipliers

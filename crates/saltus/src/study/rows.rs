@@ -5,17 +5,17 @@
 //! the row is an exception: label and exponents are then of what follows it.
 
 use saltus_hybrid::{Point, Status};
-use saltus_orbits::Exponent;
+use saltus_orbits::{Exponent, MotionKind};
 
-use super::attractor::{Kind, Search, attractors};
+use super::attractor::{Search, attractors};
 use super::{Control, StudyError, SweepRow, growth};
 use crate::model::{Model, ModelError};
 
 /// What the motion of a row is in the long run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
-    /// What it is; [`Kind::Undecided`] also if going on from the row ended early.
-    pub kind: Kind,
+    /// What it is; [`MotionKind::Undecided`] also if going on from the row ended early.
+    pub kind: MotionKind,
     /// The largest Lyapunov exponent (per forcing period), where it took one to say what the motion is.
     pub exponent: Option<Exponent>,
     /// As in [`Attractor`](super::Attractor): of the test behind the name; `None` for a cycle known by its
@@ -68,7 +68,7 @@ where
         |number, found| {
             let motion = found.attractor.as_ref().ok();
             let label = Label {
-                kind: motion.map_or(Kind::Undecided, |motion| motion.kind),
+                kind: motion.map_or(MotionKind::Undecided, |motion| motion.kind),
                 exponent: motion.and_then(|motion| motion.exponent),
                 confidence: motion.and_then(|motion| motion.confidence),
                 end: found.arrival.map(|arrival| arrival.point),

@@ -1,10 +1,10 @@
 //! Maps of parameters and of starts: the same answers as single motions, early or late, in any order.
 
 use saltus::model::{ModelError, PreparedPlate, Setup};
+use saltus::orbits::MotionKind;
 use saltus::physics::PhysicsError;
 use saltus::study::{
-    Catalogue, Control, Found, Grid, Kind, Lost, Search, StudyError, Sweep, attractors, map,
-    simulate,
+    Catalogue, Control, Found, Grid, Lost, Search, StudyError, Sweep, attractors, map, simulate,
 };
 use std::sync::Arc;
 
@@ -48,7 +48,7 @@ fn found(pixels: &[usize], search: &Search, threads: usize) -> Vec<(usize, Found
     out
 }
 
-fn kind(found: &Found) -> Option<Kind> {
+fn kind(found: &Found) -> Option<MotionKind> {
     found.attractor.as_ref().ok().map(|a| a.kind)
 }
 
@@ -88,7 +88,7 @@ fn stopping_early_changes_no_label_and_saves_a_third() {
         let (Ok(early), Ok(late)) = (&early.attractor, &late.attractor) else {
             panic!("{:?}", grid().at(*pixel));
         };
-        if let Kind::Periodic(_) = early.kind {
+        if let MotionKind::Periodic(_) = early.kind {
             // the transient left out is below 1e-6 eta; accelerations are some ten m/s^2
             assert!((early.contact_ratio[0] - late.contact_ratio[0]).abs() < 1e-6);
             assert!((early.peak_reaction[0] - late.peak_reaction[0]).abs() < 1e-5);
@@ -101,9 +101,9 @@ fn stopping_early_changes_no_label_and_saves_a_third() {
 fn labels_are_those_of_the_paper() {
     // DP Fig. 3b, 3e, and 2b at small damping.
     for (zeta, ratio, expected) in [
-        (0.35, 0.9, Kind::Periodic(1)),
-        (0.28, 1.0, Kind::Periodic(2)),
-        (0.12, 1.0, Kind::Chaotic),
+        (0.35, 0.9, MotionKind::Periodic(1)),
+        (0.28, 1.0, MotionKind::Periodic(2)),
+        (0.12, 1.0, MotionKind::Chaotic),
     ] {
         let model = Setup::dias_del_prado(zeta, ratio).model().expect("valid");
         let mut labels = Vec::new();
@@ -141,7 +141,7 @@ fn the_shortest_period_wins_where_the_double_return_is_closer() {
     // 6-cycles with a multiplier near -1: 20 000 periods and Newton's method
     for zeta in [0.211_159_686, 0.219_996_601] {
         let found = pixel(zeta, 1.034_652_482, &Search::default());
-        assert_eq!(kind(&found), Some(Kind::Periodic(6)), "{zeta}");
+        assert_eq!(kind(&found), Some(MotionKind::Periodic(6)), "{zeta}");
     }
 }
 
@@ -154,7 +154,7 @@ fn a_slow_approach_to_a_cycle_is_decided_by_its_multipliers() {
         (0.373_270, 1.105_301, 4, 0.994_764),
     ] {
         let found = pixel(zeta, ratio, &Search::default());
-        assert_eq!(kind(&found), Some(Kind::Periodic(period)), "{zeta}");
+        assert_eq!(kind(&found), Some(MotionKind::Periodic(period)), "{zeta}");
         let motion = found.attractor.expect("a motion");
         let largest = motion.multiplier.expect("Newton's method was asked");
         // places are rounded to six digits, and multipliers move by some 1e-5 from there
@@ -168,7 +168,11 @@ fn a_torus_is_told_by_averages_over_one_long_piece() {
     // the largest exponents over 8000 periods are zero within 2e-5, and no cycle of up to 32 periods is near
     for (zeta, ratio) in [(0.10, 0.953), (0.106, 0.9532), (0.11, 0.953)] {
         let found = pixel(zeta, ratio, &Search::default());
-        assert_eq!(kind(&found), Some(Kind::QuasiPeriodic), "{zeta} {ratio}");
+        assert_eq!(
+            kind(&found),
+            Some(MotionKind::QuasiPeriodic),
+            "{zeta} {ratio}"
+        );
         let motion = found.attractor.expect("a motion");
         assert!(motion.confidence >= Some(0.999));
     }
@@ -181,7 +185,7 @@ fn chaos_says_over_how_many_periods_it_was_seen() {
         ..Search::default()
     };
     let [short, long] = [hasty, Search::default()].map(|search| pixel(0.12, 1.0, &search));
-    assert_eq!([&short, &long].map(kind), [Some(Kind::Chaotic); 2]);
+    assert_eq!([&short, &long].map(kind), [Some(MotionKind::Chaotic); 2]);
     // run on for its time, and one period more for a last look
     let more = long.periods - short.periods;
     assert_eq!(more, Search::default().watch + 1);
@@ -268,7 +272,7 @@ fn coexisting_attractors_are_told_apart_and_shifts_of_one_are_not() {
     assert!(
         entries
             .iter()
-            .all(|e| e.attractor.kind == Kind::Periodic(2))
+            .all(|e| e.attractor.kind == MotionKind::Periodic(2))
     );
 }
 

@@ -1,7 +1,7 @@
 //! The statements of Dias & Del Prado, section 4 and abstract, as tests: what `saltus reproduce` says
 //! must not change without notice.
 
-use saltus::orbits::Nature;
+use saltus::orbits::MotionKind;
 use saltus::orbits::SpecialKind;
 use saltus::physics::ContactLaw;
 use saltus::physics::FrequencyReference::{Free, Occupied};
@@ -228,7 +228,7 @@ fn every_statement_has_its_verdict() {
         ]
     );
     for chaotic in [2, 5] {
-        assert_eq!(occupied[chaotic].verdict.nature, Nature::Chaotic);
+        assert_eq!(occupied[chaotic].verdict.kind, MotionKind::Chaotic);
     }
     // With the free frequency 0.32 is 4T and 0.36 is 2T: two statements contradicted.
     assert_eq!((free[5].recurrence, free[6].recurrence), (Some(4), Some(2)));

@@ -1,9 +1,10 @@
 //! All attractors of the paper's case: counted at one value, followed along the damping ratio.
 
 use saltus::model::{Model, ModelError, PreparedPlate, Setup};
+use saltus::orbits::MotionKind;
 use saltus::physics::BaseFrequency;
 use saltus::study::{
-    Catalogue, Census, Control, Fraction, Kind, Lineages, Pass, Search, Starts, StudyError, Sweep,
+    Catalogue, Census, Control, Fraction, Lineages, Pass, Search, Starts, StudyError, Sweep,
     attractors, census, follow, recurrence, sweep,
 };
 use std::sync::{Arc, LazyLock};
@@ -52,8 +53,8 @@ fn two_attractors_share_the_starts() {
     let [often, rare] = &found.attractors[..] else {
         panic!("{:?}", found.attractors)
     };
-    assert_eq!(often.entry.attractor.kind, Kind::Periodic(2));
-    assert_eq!(rare.entry.attractor.kind, Kind::Periodic(2));
+    assert_eq!(often.entry.attractor.kind, MotionKind::Periodic(2));
+    assert_eq!(rare.entry.attractor.kind, MotionKind::Periodic(2));
     assert!(rare.fraction.value() < 0.1 && rare.fraction.count > 0);
     let counts = often.fraction.count + rare.fraction.count;
     assert_eq!(counts + without(&found), 64);
@@ -78,11 +79,14 @@ fn a_slow_transient_is_no_attractor_and_counts_for_what_it_becomes() {
     })
     .expect("runs");
     let of = |kind| kinds.iter().filter(|&&other| other == kind).count() as u64;
-    let (band, cycle) = (of(Kind::NotPeriodic), of(Kind::Periodic(8)));
+    let (band, cycle) = (of(MotionKind::NotPeriodic), of(MotionKind::Periodic(8)));
     assert!(band > 0 && cycle > 0, "{kinds:?}");
     let found = census(&model, &starts, &hasty, &control(0)).expect("runs");
     assert_eq!(found.attractors.len(), 1);
-    assert_eq!(found.attractors[0].entry.attractor.kind, Kind::Periodic(8));
+    assert_eq!(
+        found.attractors[0].entry.attractor.kind,
+        MotionKind::Periodic(8)
+    );
     // and those that one search leaves undecided
     assert!(found.attractors[0].fraction.count >= band + cycle);
     assert_eq!(found.attractors[0].fraction.count + without(&found), 24);
@@ -102,7 +106,7 @@ fn chaos_that_ends_is_a_transient_with_a_lifetime() {
         for one in &found.attractors {
             let motion = &one.entry.attractor;
             assert!(
-                matches!(motion.kind, Kind::Periodic(_)),
+                matches!(motion.kind, MotionKind::Periodic(_)),
                 "{zeta}: {motion:?}"
             );
             assert!(motion.multiplier.is_some_and(|largest| largest < 1.0));
@@ -127,7 +131,7 @@ fn chaos_that_lasts_is_an_attractor_with_a_bound_on_its_lifetime() {
     let [chaos] = &found.attractors[..] else {
         panic!("{:?}", found.attractors)
     };
-    assert_eq!(chaos.entry.attractor.kind, Kind::Chaotic);
+    assert_eq!(chaos.entry.attractor.kind, MotionKind::Chaotic);
     let survival = chaos.survival.expect("it was watched");
     assert_eq!((survival.motions, survival.ended), (8, 0));
     let [mean, low, _] = survival.lifetime();
@@ -141,12 +145,12 @@ fn a_slow_spiral_and_an_unstable_cycle_are_no_attractors() {
     // (1.0, 0.46) the 2-cycle beside the doubling at 0.46096
     for (zeta, ratio) in [(0.445, 1.1), (0.46, 1.0)] {
         let found = counted(zeta, ratio, 32);
-        let kinds: Vec<Kind> = found
+        let kinds: Vec<MotionKind> = found
             .attractors
             .iter()
             .map(|one| one.entry.attractor.kind)
             .collect();
-        assert_eq!(kinds, [Kind::Periodic(2)], "{zeta} {ratio}");
+        assert_eq!(kinds, [MotionKind::Periodic(2)], "{zeta} {ratio}");
         let section = &found.attractors[0].arrival.section[0];
         assert!((section[0][0] - section[1][0]).abs() > 1e-3, "{section:?}");
     }
@@ -156,7 +160,7 @@ fn a_slow_spiral_and_an_unstable_cycle_are_no_attractors() {
         let kinds = row.attractors().iter().map(|one| one.entry.attractor.kind);
         kinds.collect::<Vec<_>>()
     });
-    let [two, one] = [Kind::Periodic(2), Kind::Periodic(1)];
+    let [two, one] = [MotionKind::Periodic(2), MotionKind::Periodic(1)];
     assert_eq!(kinds.collect::<Vec<_>>(), [[two], [one]]);
 }
 
@@ -170,8 +174,8 @@ fn an_attractor_that_no_start_meets_is_found_from_its_neighbours() {
     let [often, rare] = there else {
         panic!("{there:?}")
     };
-    assert_eq!(often.entry.attractor.kind, Kind::Periodic(2));
-    assert_eq!(rare.entry.attractor.kind, Kind::Periodic(2));
+    assert_eq!(often.entry.attractor.kind, MotionKind::Periodic(2));
+    assert_eq!(rare.entry.attractor.kind, MotionKind::Periodic(2));
     let [low, high] = often.fraction.interval();
     assert!(low < 0.970 && 0.970 < high, "{low} {high}");
     assert_eq!(rare.fraction.count, 0);
@@ -179,7 +183,7 @@ fn an_attractor_that_no_start_meets_is_found_from_its_neighbours() {
     // it is the 4-cycle of smaller damping
     let before = &found.rows[1].attractors()[rare.identity];
     assert_eq!(before.identity, rare.identity);
-    assert_eq!(before.entry.attractor.kind, Kind::Periodic(4));
+    assert_eq!(before.entry.attractor.kind, MotionKind::Periodic(4));
     assert!(before.fraction.count > 0);
 }
 
@@ -197,7 +201,7 @@ fn one_attractor_is_one_number_and_no_loop() {
         .rows
         .iter()
         .map(|row| row.attractors()[0].entry.attractor.kind);
-    let [two, one] = [Kind::Periodic(2), Kind::Periodic(1)];
+    let [two, one] = [MotionKind::Periodic(2), MotionKind::Periodic(1)];
     assert_eq!(kinds.collect::<Vec<_>>(), [two, two, one, one, one]);
 }
 

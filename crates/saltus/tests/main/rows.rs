@@ -1,9 +1,10 @@
 //! Labels and exponents of the rows of a sweep, of the paper's case.
 
 use saltus::model::{Model, ModelError, PreparedPlate, Setup};
+use saltus::orbits::MotionKind;
 use saltus::physics::ContactLaw;
 use saltus::study::{
-    Control, Kind, Pass, StudyError, Sweep, SweepRow, exponents, labels, recurrence, sweep,
+    Control, Pass, StudyError, Sweep, SweepRow, exponents, labels, recurrence, sweep,
 };
 use std::sync::{Arc, LazyLock};
 
@@ -44,12 +45,15 @@ fn the_papers_motions_have_their_names_and_signs() {
     // chaos, 4T and 2T of DP Fig. 2b; a value without a model keeps its place
     let rows = rows(&[0.12, 0.2, 0.21, 0.28], 400);
     let labels = labels(&rows, model, &control(0)).expect("runs");
-    let kinds: Vec<Option<Kind>> = labels
+    let kinds: Vec<Option<MotionKind>> = labels
         .iter()
         .map(|l| l.as_ref().map(|label| label.kind))
         .collect();
-    let periodic = |n| Some(Kind::Periodic(n));
-    assert_eq!(kinds, [Some(Kind::Chaotic), None, periodic(4), periodic(2)]);
+    let periodic = |n| Some(MotionKind::Periodic(n));
+    assert_eq!(
+        kinds,
+        [Some(MotionKind::Chaotic), None, periodic(4), periodic(2)]
+    );
     let chaos = labels[0].as_ref().expect("a label");
     assert!(chaos.confidence >= Some(0.999), "{chaos:?}");
     assert!(chaos.exponent.expect("it took one").per_iterate > 0.0);
@@ -145,7 +149,7 @@ fn label_and_exponent_are_of_what_follows_a_chaotic_transient() {
     let labels = labels(&rows, model, &control(0)).expect("runs");
     let found = exponents(&rows, &labels, model, 1, 60, &control(0)).expect("runs");
     for (label, exponents) in labels.iter().flatten().zip(&found) {
-        assert_eq!(label.kind, Kind::Periodic(8));
+        assert_eq!(label.kind, MotionKind::Periodic(8));
         assert!(exponents[0].per_iterate < 0.0, "{label:?} {exponents:?}");
     }
     let late = |row: &&SweepRow| recurrence(&row.z[0], &row.v[0], 1e-2).is_none();

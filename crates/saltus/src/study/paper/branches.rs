@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use saltus_hybrid::{Leg, Point as State, record};
 use saltus_orbits::{
-    Along, BranchesOptions, ContinuationOptions, Family, Limb, NewtonOptions, Orbit, Place, Point,
-    SpecialKind, branches, find_orbit,
+    Along, BranchesOptions, ContinuationOptions, Family, Limb, MotionKind, NewtonOptions, Orbit,
+    Place, Point, SpecialKind, branches, find_orbit,
 };
 
 use super::stretches::collect;
@@ -13,7 +13,7 @@ use super::{Diagram, Effort, Met, REPEATS, Stretch, setup};
 use crate::model::{Inertia, Model, ModelError, PreparedPlate};
 use crate::physics::{ContactLaw, FrequencyReference, Plate};
 use crate::study::{
-    Control, Kind, Lineages, OrbitError, OrbitSearch, Search, Starts, StudyError, Sweep, follow,
+    Control, Lineages, OrbitError, OrbitSearch, Search, Starts, StudyError, Sweep, follow,
     orbit_of, place, recurrence, second_opinion, sequence, settle, stroboscopic,
 };
 
@@ -528,7 +528,7 @@ fn of_census(attractors: &Lineages) -> Vec<Seed> {
     let rows = rows.filter_map(|row| Some((row.value, row.census.as_ref().ok()?)));
     let all = rows.flat_map(|(zeta, census)| census.attractors.iter().map(move |one| (zeta, one)));
     let seeds = all.filter_map(|(zeta, one)| {
-        let Kind::Periodic(period) = one.entry.attractor.kind else {
+        let MotionKind::Periodic(period) = one.entry.attractor.kind else {
             return None;
         };
         let section = one.arrival.section.first()?;

@@ -1,7 +1,7 @@
 //! Fig. 3: phase portraits and Poincare points of eight named cases.
 
 use saltus_hybrid::Point;
-use saltus_orbits::{Criteria, Nature, Recurrence, Verdict, judge};
+use saltus_orbits::{Criteria, MotionKind, Recurrence, Verdict, judge};
 
 use super::{Effort, setup};
 use crate::model::{Contact, Inertia, Model, Section};
@@ -111,19 +111,19 @@ impl CaseResult {
     pub fn words(&self) -> String {
         let exponent = self.verdict.exponent;
         let (mean, error) = (exponent.per_iterate, exponent.standard_error);
-        match (self.verdict.nature, self.recurrence) {
-            (Nature::Periodic(n), _) | (_, Some(n)) => format!("{n}T"),
-            (Nature::Chaotic, _) => {
+        match (self.verdict.kind, self.recurrence) {
+            (MotionKind::Periodic(n), _) | (_, Some(n)) => format!("{n}T"),
+            (MotionKind::Chaotic, _) => {
                 let bands = match self.bands() {
                     1 => String::new(),
                     n => format!(" in {n} bands"),
                 };
                 format!("chaotic{bands} (exponent {mean:.4} ± {error:.4} per period)")
             }
-            (Nature::QuasiPeriodic, _) => {
+            (MotionKind::QuasiPeriodic, _) => {
                 format!("quasi-periodic (exponent {mean:.1e} ± {error:.0e} per period)")
             }
-            (Nature::Undecided(_), _) => {
+            (MotionKind::NotPeriodic | MotionKind::Undecided, _) => {
                 format!("does not repeat (exponent {mean:.4} ± {error:.4} per period)")
             }
         }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use saltus_orbits::{Nature, SpecialKind};
+use saltus_orbits::{MotionKind, SpecialKind};
 
 use super::stretches::{cascade, families};
 use super::{Bound, CaseResult, Edge, PanelBranches, RATIOS, Stretch};
@@ -204,7 +204,7 @@ impl Evidence<'_> {
     }
 
     fn is_chaotic(&self, tag: char) -> bool {
-        let chaotic = |result: &CaseResult| result.verdict.nature == Nature::Chaotic;
+        let chaotic = |result: &CaseResult| result.verdict.kind == MotionKind::Chaotic;
         self.case(tag).is_some_and(chaotic)
     }
 }
@@ -300,7 +300,7 @@ fn f6(evidence: &Evidence<'_>) -> Finding {
     }
     let torus = evidence
         .case('f')
-        .is_some_and(|result| result.verdict.nature == Nature::QuasiPeriodic);
+        .is_some_and(|result| result.verdict.kind == MotionKind::QuasiPeriodic);
     let parts = [!windows.is_empty(), torus, evidence.has_period('g', 4)];
     (value, Verdict::from_parts(&parts))
 }

@@ -1,4 +1,4 @@
-//! What a motion is, from its exponents and from whether it recurs; and how sure that is.
+//! The kind of a motion, judged by its exponents and by whether it recurs, and how sure that is.
 //!
 //! The name rests on tests, not on an exponent being above some number:
 //!
@@ -44,20 +44,65 @@ pub enum Recurrence {
     Open,
 }
 
-/// What a motion is in the long run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Nature {
-    /// On a stable cycle of so many iterates.
+/// Kinds of motion in the long run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum MotionKind {
+    /// On a stable cycle that repeats after this number of iterates.
     Periodic(u32),
-    /// On a torus.
+    /// On a torus: the largest exponent is zero far more closely than chance allows.
     QuasiPeriodic,
-    /// Small deviations grow, again and again.
+    /// Never repeats, and small deviations grow, again and again: the largest exponent is positive.
     Chaotic,
-    /// Not known, and why.
-    Undecided(Doubt),
+    /// On no cycle of a length that was looked for, and no exponent was asked for that tells more.
+    NotPeriodic,
+    /// Not known: still on its way, on a longer cycle, or its exponent too small to tell its sign.
+    Undecided,
 }
 
-/// Why the nature of a motion is not known.
+impl MotionKind {
+    /// The names of all kinds, each at the place of its [`Self::code`].
+    pub const NAMES: [&'static str; 5] = [
+        "periodic",
+        "quasi-periodic",
+        "chaotic",
+        "not-periodic",
+        "undecided",
+    ];
+
+    /// The name as results have it; that of a cycle is without its period.
+    pub fn name(self) -> &'static str {
+        Self::NAMES[self.code()]
+    }
+
+    /// A number for the kind, without the period of a cycle: its place among [`Self::NAMES`].
+    pub fn code(self) -> usize {
+        match self {
+            Self::Periodic(_) => 0,
+            Self::QuasiPeriodic => 1,
+            Self::Chaotic => 2,
+            Self::NotPeriodic => 3,
+            Self::Undecided => 4,
+        }
+    }
+
+    /// The period of a cycle.
+    pub fn period(self) -> Option<u32> {
+        match self {
+            Self::Periodic(n) => Some(n),
+            _ => None,
+        }
+    }
+
+    /// Whether it is known not to repeat.
+    pub fn never_repeats(self) -> bool {
+        matches!(
+            self,
+            Self::QuasiPeriodic | Self::Chaotic | Self::NotPeriodic
+        )
+    }
+}
+
+/// Reasons why the kind of a motion is not known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Doubt {
     /// Too few iterates for any error, or the sign of the exponent drowns in it.
@@ -72,12 +117,14 @@ pub enum Doubt {
     UnstableCycle,
 }
 
-/// A nature and how sure it is.
+/// A kind of motion and how sure it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verdict {
-    /// What the motion is.
-    pub nature: Nature,
-    /// Probability that the test behind the name did not come out by chance; where the nature is undecided,
+    /// Kind of the motion.
+    pub kind: MotionKind,
+    /// Reason why it is undecided; `None` for every other kind.
+    pub doubt: Option<Doubt>,
+    /// Probability that the test behind the name did not come out by chance; where the kind is undecided,
     /// that the largest exponent has the sign it shows.
     pub confidence: f64,
     /// The largest exponent.
@@ -112,22 +159,24 @@ impl Default for Criteria {
 impl Verdict {
     /// Whether more iterates may yet tell. Those of an orbit on an unstable cycle do not.
     pub fn needs_more(&self) -> bool {
-        matches!(self.nature, Nature::Undecided(doubt) if doubt != Doubt::UnstableCycle)
+        self.doubt
+            .is_some_and(|doubt| doubt != Doubt::UnstableCycle)
     }
 }
 
-/// The nature of a motion, from the record of its exponents and its recurrence at the end of that record.
+/// The kind of a motion, from the record of its exponents and its recurrence at the end of that record.
 ///
 /// The work is proportional to the length of the record.
 pub fn judge(spectrum: &Spectrum, recurrence: Recurrence, criteria: &Criteria) -> Verdict {
     let evidence = Evidence::of(spectrum, criteria);
-    let (nature, confidence) = match recurrence {
+    let (named, confidence) = match recurrence {
         Recurrence::Recurs { period, rest } if rest <= criteria.rest => evidence.of_cycle(period),
         Recurrence::Recurs { .. } | Recurrence::Drifting => evidence.undecided(Doubt::Drift),
         Recurrence::Open => evidence.of_open(),
     };
     Verdict {
-        nature,
+        kind: named.unwrap_or(MotionKind::Undecided),
+        doubt: named.err(),
         confidence,
         exponent: evidence.exponent,
     }
@@ -156,9 +205,9 @@ impl<'a> Evidence<'a> {
         }
     }
 
-    fn of_cycle(&self, period: u32) -> (Nature, f64) {
+    fn of_cycle(&self, period: u32) -> (Result<MotionKind, Doubt>, f64) {
         if 1.0 - self.positive >= self.criteria.confidence {
-            (Nature::Periodic(period), 1.0 - self.positive)
+            (Ok(MotionKind::Periodic(period)), 1.0 - self.positive)
         } else if self.positive >= self.criteria.confidence {
             self.undecided(Doubt::UnstableCycle)
         } else {
@@ -166,12 +215,12 @@ impl<'a> Evidence<'a> {
         }
     }
 
-    fn of_open(&self) -> (Nature, f64) {
+    fn of_open(&self) -> (Result<MotionKind, Doubt>, f64) {
         let sure = |probability: f64| probability >= self.criteria.confidence;
         if sure(1.0 - self.chance) {
-            (Nature::QuasiPeriodic, 1.0 - self.chance)
+            (Ok(MotionKind::QuasiPeriodic), 1.0 - self.chance)
         } else if sure(self.positive) && self.growth > self.criteria.growth {
-            (Nature::Chaotic, self.positive)
+            (Ok(MotionKind::Chaotic), self.positive)
         } else if sure(self.positive) {
             self.undecided(Doubt::Growth)
         } else if sure(1.0 - self.positive) {
@@ -181,9 +230,9 @@ impl<'a> Evidence<'a> {
         }
     }
 
-    fn undecided(&self, doubt: Doubt) -> (Nature, f64) {
+    fn undecided(&self, doubt: Doubt) -> (Result<MotionKind, Doubt>, f64) {
         let sign = self.positive.max(1.0 - self.positive);
-        (Nature::Undecided(doubt), sign)
+        (Err(doubt), sign)
     }
 }
 
