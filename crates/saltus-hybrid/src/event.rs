@@ -7,10 +7,12 @@
 //! beyond and does not go further is held instead where firing would lead to no mode that lasts: it is
 //! armed again when it is back on its right side, and fires if it turns away before.
 
-use crate::compile::{Structure, Watch};
+use crate::evaluator::Evaluator;
 use crate::jets::{Jets, Side};
 use crate::polynomial::{BernsteinTable, MAX_DEGREE, first_descent};
-use crate::system::{Evaluator, Mode, System};
+use crate::program::Mode;
+use crate::structure::{Structure, Watch};
+use crate::system::System;
 
 /// A coefficient is worth a look at its terms if it is below this part of the largest in the step.
 const SUSPICIOUS: f64 = 1e-9;

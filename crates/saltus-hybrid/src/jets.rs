@@ -6,8 +6,9 @@
 //! (a running error analysis; Higham, Accuracy and Stability of Numerical Algorithms (2002), section 3.3).
 
 use crate::arith::Scalar;
+use crate::program::Mode;
 use crate::series::{Series, expand};
-use crate::system::{Mode, System};
+use crate::system::System;
 
 /// A coefficient is zero if it is below this part of the terms it is made of: some thousand units of
 /// rounding, for what accumulates on the way to the point.

@@ -7,12 +7,13 @@ use std::sync::Arc;
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
 
 use crate::arith::{Arith, LANES, Pack, Wide};
-use crate::compile::{Structure, Watch};
+
 use crate::event::{Guarded, Spot};
 use crate::polynomial::{BernsteinTable, HEAD};
 use crate::series::{Series, expand};
 use crate::sizes::Sizes;
 use crate::special::Shape;
+use crate::structure::{Structure, Watch};
 use crate::system::System;
 
 /// Eight lanes of numbers and the program they all follow.
@@ -147,7 +148,8 @@ impl Kernel {
     /// Begins a leg at the state `x`: sizes of its states are not known yet.
     pub(crate) fn begin(&mut self, slot: usize, system: &System, x: &[f64]) {
         self.set_state(slot, x);
-        self.sizes.begin(slot, &system.scales, system.plan.together);
+        self.sizes
+            .begin(slot, &system.scales, system.program.together);
     }
 
     /// Sizes of the states of a lane, and how large they have been.
@@ -205,9 +207,7 @@ impl Kernel {
 
     /// The start of the step of a lane.
     pub(crate) fn spot(&self, slot: usize) -> Spot {
-        let tangents = self.structure.tangents.as_ref();
-        let states = tangents.map_or(self.structure.states, |tangents| tangents.first);
-        let mut x = vec![0.0; states];
+        let mut x = vec![0.0; self.structure.base_states()];
         self.state(slot, &mut x);
         Spot {
             x,

@@ -1,11 +1,11 @@
 //! The bookkeeping of one trajectory, shared by all steppers: time, modes, counters, the task.
 
-use crate::compile::Watch;
 use crate::event::{Coming, Firing, Guarded, Judge, Spot, Touches};
 use crate::polynomial::BernsteinTable;
-use crate::run::{End, IntegrateError, Leg, Options, Sample, Status, Switch, SwitchKind, Task};
 use crate::saltation;
+use crate::structure::Watch;
 use crate::system::{Point, System};
+use crate::task::{End, IntegrateError, Leg, Options, Sample, Status, Switch, SwitchKind, Task};
 
 /// A trajectory under way.
 pub(crate) struct Lane<T> {
@@ -187,7 +187,7 @@ impl<T: Task> Lane<T> {
             // The sample is the state after all switches at its instant, whatever side of it rounding or the
             // error of the solution puts them on.
             if firing.is_some() || arrival == Arrival::WithGuardsNearZero {
-                let base = x.len().min(self.base_states());
+                let base = x.len().min(self.system.structure.base_states());
                 let mut spot = Spot {
                     x: x[..base].to_vec(),
                     sizes: sizes(),
@@ -209,13 +209,6 @@ impl<T: Task> Lane<T> {
             return Next::Over(self.too_many_steps());
         }
         if arrives { self.sample(x) } else { Next::Go }
-    }
-
-    /// States of the system without tangents.
-    fn base_states(&self) -> usize {
-        let structure = &self.system.structure;
-        let tangents = structure.tangents.as_ref();
-        tangents.map_or(structure.states, |tangents| tangents.first)
     }
 
     /// Exact values of the drive at the next sample: its own error does not add up, and what depends on time

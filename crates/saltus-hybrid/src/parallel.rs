@@ -3,7 +3,8 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use crate::run::{IntegrateError, Options, Task, integrate};
+use crate::run::integrate;
+use crate::task::{End, IntegrateError, Leg, Options, Sample, Step, Switch, Task};
 
 /// Runs all tasks on `threads` threads (0: as many as the machine has) and gives them back in their
 /// order. Tasks are started in order, so put the longest first. What a task sees is the same for any
@@ -166,25 +167,25 @@ struct Numbered<T> {
 }
 
 impl<T: Task> Task for Numbered<T> {
-    fn begin(&mut self) -> Option<crate::Leg> {
+    fn begin(&mut self) -> Option<Leg> {
         self.task.begin()
     }
-    fn sample(&mut self, sample: &crate::Sample<'_>) -> bool {
+    fn sample(&mut self, sample: &Sample<'_>) -> bool {
         self.task.sample(sample)
     }
     fn tangents(&mut self, columns: &mut [f64]) {
         self.task.tangents(columns);
     }
-    fn switch(&mut self, switch: &crate::Switch<'_>) {
+    fn switch(&mut self, switch: &Switch<'_>) {
         self.task.switch(switch);
     }
     fn wants_steps(&self) -> bool {
         self.task.wants_steps()
     }
-    fn step(&mut self, step: &crate::Step<'_>) {
+    fn step(&mut self, step: &Step<'_>) {
         self.task.step(step);
     }
-    fn end(&mut self, end: crate::End) -> Option<crate::Leg> {
+    fn end(&mut self, end: End) -> Option<Leg> {
         self.task.end(end)
     }
 }
@@ -192,7 +193,6 @@ impl<T: Task> Task for Numbered<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::{End, Leg, Sample};
     use crate::testing::forced_oscillator;
     use std::sync::atomic::AtomicUsize;
 

@@ -2,8 +2,9 @@
 
 use std::sync::atomic::AtomicBool;
 
-use crate::run::{End, IntegrateError, Leg, Options, Sample, Switch, SwitchKind, Task, integrate};
+use crate::run::integrate;
 use crate::system::Point;
+use crate::task::{End, IntegrateError, Leg, Options, Sample, Switch, SwitchKind, Task};
 
 /// A switch as kept.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,12 +8,12 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use crate::arith::Scalar;
-use crate::compile::{Structure, Watch};
 use crate::event::{Cause, Firing, Spot};
 use crate::lane::{Arrival, Lane, Next};
 use crate::polynomial::BernsteinTable;
-use crate::run::{IntegrateError, Leg, Options, Step, Task, check_stop};
 use crate::series::{Series, expand, values};
+use crate::structure::{Structure, Watch};
+use crate::task::{IntegrateError, Leg, Options, Status, Step, Task, check_stop};
 
 /// Degree of the interpolant.
 const HERMITE: usize = 3;
@@ -48,7 +48,7 @@ fn run_leg<T: Task>(
     let mut slot = 1;
     let mut dense = Vec::new();
     if lane.is_over() {
-        return Ok(lane.finish(crate::Status::Completed, &x));
+        return Ok(lane.finish(Status::Completed, &x));
     }
     loop {
         check_stop(stop)?;
@@ -159,10 +159,8 @@ impl Stepper {
 
     /// The opened point, as the rules of events see it.
     fn spot(&self, structure: &Structure, sizes: &[f64]) -> Spot {
-        let tangents = structure.tangents.as_ref();
-        let states = tangents.map_or(structure.states, |tangents| tangents.first);
         let mut x = self.opened(structure);
-        x.truncate(states);
+        x.truncate(structure.base_states());
         Spot {
             x,
             sizes: sizes.to_vec(),

@@ -11,10 +11,10 @@
 //! Where the field does not jump and nothing is reset it is the identity. A switch that fires at once after
 //! another has the s of that one: a neighbour that comes later makes all of the chain later.
 
-use crate::compile::Watch;
+use crate::evaluator::Evaluator;
 use crate::event::{Cause, Firing};
-use crate::system::{Evaluator, Mode};
-use crate::tangent::Tangents;
+use crate::program::Mode;
+use crate::structure::{Tangents, Watch};
 
 /// A jump of the field below this part of its size is rounding: near grazing it must not be divided by
 /// a vanishing rate.

@@ -12,7 +12,7 @@ use crate::arith::LANES;
 use crate::event::Firing;
 use crate::kernel::Kernel;
 use crate::lane::{Arrival, Lane, Next};
-use crate::run::{IntegrateError, Leg, Options, Status, Step, Task, check_stop};
+use crate::task::{IntegrateError, Leg, Options, Status, Step, Task, check_stop};
 
 /// Runs all tasks.
 pub(crate) fn run<T: Task>(

@@ -1,6 +1,8 @@
 //! Small systems with known answers, for tests of steppers and of analyses.
 
-use crate::system::{BuildError, System, SystemBuilder, Transition};
+use crate::builder::SystemBuilder;
+use crate::program::{BuildError, Transition};
+use crate::system::System;
 
 /// A ball under gravity `g` that bounces with restitution `e`: states height and speed, one mode.
 /// Dropped from height H it comes to rest, after infinitely many bounces, at
