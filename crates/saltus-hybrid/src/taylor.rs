@@ -182,26 +182,7 @@ impl<T: Task> Ensemble<T> {
             whole
         };
         if length > 0.0 {
-            if lane.wants_steps {
-                self.dense.clear();
-                for &node in structure.state_slots.iter().chain(&structure.guard_slots) {
-                    self.dense.extend(kernel.power(slot, node));
-                }
-                let step = Step {
-                    period: lane.period,
-                    time: lane.time,
-                    length,
-                    modes: &lane.guarded.modes,
-                    degree: kernel.order,
-                    power: &self.dense,
-                    structure,
-                };
-                lane.task.step(&step);
-            }
-            lane.guarded.advanced(kernel.order, |guard, power| {
-                let slots = &structure.guard_slots;
-                in_fractions(kernel.power(slot, slots[guard]), length, power);
-            });
+            show(kernel, slot, lane, length, &mut self.dense);
         }
         self.plans[slot].firing = coming.firing;
         self.kernel.lengths.0[slot] = length;
@@ -297,6 +278,36 @@ impl<T: Task> Ensemble<T> {
         }
         Ok(())
     }
+}
+
+/// Shows the coming step of a lane to its task and to its guards.
+fn show<T: Task>(
+    kernel: &Kernel,
+    slot: usize,
+    lane: &mut Lane<T>,
+    length: f64,
+    dense: &mut Vec<f64>,
+) {
+    let structure = &kernel.structure;
+    if lane.wants_steps {
+        dense.clear();
+        for &node in structure.state_slots.iter().chain(&structure.guard_slots) {
+            dense.extend(kernel.power(slot, node));
+        }
+        lane.task.step(&Step {
+            period: lane.period,
+            time: lane.time,
+            length,
+            modes: &lane.guarded.modes,
+            degree: kernel.order,
+            power: dense,
+            structure,
+        });
+    }
+    lane.guarded.advanced(kernel.order, |guard, power| {
+        let slots = &structure.guard_slots;
+        in_fractions(kernel.power(slot, slots[guard]), length, power);
+    });
 }
 
 /// Power coefficients in time as coefficients in the fraction of a step.

@@ -51,24 +51,13 @@ impl<F: Family + ?Sized> Path<'_, F> {
         };
         let mut step = self.options.initial;
         branch.ends[1] = loop {
-            let last = &branch.points[branch.points.len() - 1];
-            if !go_on {
-                break End::Interrupted;
-            }
-            if branch.points.len() >= self.options.points.max(1) {
-                break End::PointLimit;
-            }
-            let behind = branch.points.iter().rev();
-            if behind.take_while(|point| !point.stable).count() > self.options.unstable {
-                break End::Unstable;
-            }
-            if self.leaves(last) {
-                break End::RangeEnd;
+            if let Some(end) = self.limit(&branch.points, go_on) {
+                break end;
             }
             let mut closed = false;
             let point = match self.seen(&branch.points, born.is_some(), step) {
                 Ok((point, specials)) => {
-                    step = self.next_step(last, &point, step);
+                    step = self.next_step(&branch.points[branch.points.len() - 1], &point, step);
                     branch.specials.extend(specials);
                     let meets = |s: &Special| s.kind == SpecialKind::Halving;
                     if branch.specials.last().is_some_and(meets) {
@@ -77,29 +66,13 @@ impl<F: Family + ?Sized> Path<'_, F> {
                     closed = self.back_at(born, &mut branch.specials);
                     point
                 }
-                Err(obstacle) => match self.shorter(&branch.points, step, &obstacle) {
-                    Shorter::End => match self.further(&branch.points, obstacle) {
-                        Ok((point, next, special)) => {
-                            branch.specials.extend(special);
-                            step = next;
-                            point
-                        }
-                        Err(end) => break end,
-                    },
-                    Shorter::Step(shorter) => {
-                        step = shorter;
-                        continue;
-                    }
-                    Shorter::Grazing(unit, ahead) => {
-                        let behind = self.beyond(last, ahead);
-                        let special = self.grazing(&branch.points, unit, ahead, behind.as_ref());
-                        branch.specials.push(special);
-                        let Some(point) = behind else {
-                            break End::Grazing;
-                        };
-                        step = self.onwards(last, &point);
+                Err(obstacle) => match self.past(&mut branch, step, obstacle) {
+                    Ok((next, from_there)) => {
+                        step = from_there;
+                        let Some(point) = next else { continue };
                         point
                     }
+                    Err(end) => break end,
                 },
             };
             closed = closed || self.closed(&branch.points, &point);
@@ -110,6 +83,48 @@ impl<F: Family + ?Sized> Path<'_, F> {
             }
         };
         branch
+    }
+
+    /// The end of a branch that goes no further than these points.
+    fn limit(&self, points: &[Point], go_on: bool) -> Option<End> {
+        let unstable = points.iter().rev().take_while(|point| !point.stable);
+        if !go_on {
+            Some(End::Interrupted)
+        } else if points.len() >= self.options.points.max(1) {
+            Some(End::PointLimit)
+        } else if unstable.count() > self.options.unstable {
+            Some(End::Unstable)
+        } else if self.leaves(&points[points.len() - 1]) {
+            Some(End::RangeEnd)
+        } else {
+            None
+        }
+    }
+
+    /// Passes an obstacle: a point behind it and the step from there, or no point and a shorter step to try.
+    fn past(
+        &self,
+        branch: &mut Branch,
+        step: f64,
+        obstacle: End,
+    ) -> Result<(Option<Point>, f64), End> {
+        match self.shorter(&branch.points, step, &obstacle) {
+            Shorter::Step(shorter) => Ok((None, shorter)),
+            Shorter::Grazing(unit, ahead) => {
+                let last = &branch.points[branch.points.len() - 1];
+                let behind = self.beyond(last, ahead);
+                let special = self.grazing(&branch.points, unit, ahead, behind.as_ref());
+                branch.specials.push(special);
+                let point = behind.ok_or(End::Grazing)?;
+                let next = self.onwards(last, &point);
+                Ok((Some(point), next))
+            }
+            Shorter::End => {
+                let (point, next, special) = self.further(&branch.points, obstacle)?;
+                branch.specials.extend(special);
+                Ok((Some(point), next))
+            }
+        }
     }
 
     /// The point `step` ahead and the special points before it, up to one where the branch ends.
