@@ -113,7 +113,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
             return None;
         }
         let reach = NEAR * (offset / (high - low)).abs().sqrt();
-        let old = events::sequence(&last.orbit);
+        let old = last.orbit.switches();
         let shooting = Shooting {
             keep_switches,
             ..self.shooting()
@@ -123,7 +123,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
             let found = shooting.correct(&guess, std::slice::from_ref(&up));
             if let Ok(point) = found.and_then(|pass| self.point(&pass, &up)) {
                 let way = self.apart(last, &point);
-                let new = !events::same(&old, &events::sequence(&point.orbit))
+                let new = !events::same(&old, &point.orbit.switches())
                     && shortest_period(&point.orbit.places) == point.orbit.period();
                 if new && norm(&way) <= reach {
                     let away = dot(&point.tangent, &way) >= 0.0;

@@ -7,10 +7,10 @@
 //! method, lifted to the surface by the corrector.
 
 use crate::continuation::{Along, ContinuationError, ContinuationOptions, End};
+use crate::detect::critical_pair;
+use crate::differences::Free;
 use crate::linear::{dot, minus, norm, unit};
 use crate::path::Path;
-use crate::shooting::Free;
-use crate::special::critical_pair;
 use crate::surface::{Spot, Station, Surface};
 use crate::{Family, Multiplier, NotFound, Orbit, Special, SpecialKind};
 

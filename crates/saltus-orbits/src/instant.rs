@@ -100,7 +100,7 @@ fn wandered(a: &Orbit, b: &Orbit) -> bool {
     };
     let moved: Option<Vec<bool>> = times(b).into_iter().map(moved).collect();
     a.period() == b.period()
-        && events::same(&events::sequence(a), &events::sequence(b))
+        && events::same(&a.switches(), &b.switches())
         && moved.is_some_and(|moved| moved.contains(&true))
 }
 

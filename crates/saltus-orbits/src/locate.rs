@@ -1,9 +1,9 @@
 //! Where between two points of a branch something happens.
 
 use crate::continuation::Point;
+use crate::detect::{Test, changes, pair_passes};
 use crate::path::Path;
-use crate::special::{JUMP, Special, Test, changes, pair_passes};
-use crate::touching::switches;
+use crate::special::{JUMP, Special};
 use crate::{Family, NotFound, linear};
 
 /// Brackets are narrowed to this length, relative to the largest coordinate or 1: what rounding allows.
@@ -127,7 +127,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
         let best = match (test.value(a), test.value(b)) {
             (Some(before), Some(behind)) if behind.abs() < before.abs() => b,
             // A grazing orbit is the one without the additional switches.
-            (None, _) if switches(b) < switches(a) => b,
+            (None, _) if b.orbit.switch_count() < a.orbit.switch_count() => b,
             _ => a,
         };
         let other = if std::ptr::eq(best, a) { b } else { a };

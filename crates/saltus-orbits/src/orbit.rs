@@ -1,9 +1,11 @@
 //! Periodic orbits of a map and their Floquet multipliers.
 
+use crate::events::{Switch, switches};
 use crate::kept::{Kept, kept};
 use crate::linear::{self, minus, size};
+use crate::map::{Crossing, Family, Matrix, Place, Touch};
+use crate::newton::{NewtonOptions, NotFound};
 use crate::shooting::{Guess, Pass, Shooting};
-use crate::{Crossing, Family, Lost, Matrix, Place, Touch};
 
 /// Two places of an orbit nearer than this, relative to the largest state or 1, are one place: a residual
 /// at the default tolerance leaves places uncertain by less, except within 1e-13 of a period doubling.
@@ -12,29 +14,6 @@ const SAME: f64 = 1e-7;
 /// A multiplier so near to 1 may be that of a quantity that is kept: where its equations are singular, Newton's method
 /// comes to an orbit with half of the digits only.
 const NEAR_ONE: f64 = 1e-3;
-
-/// How orbits are solved for.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NewtonOptions {
-    /// Largest component of P(x_i) - x_(i+1), relative to the largest state or 1. The default is what flows
-    /// solved to 1e-13 can reach.
-    pub tolerance: f64,
-    /// Newton steps at most; from a good guess it takes 3 to 5.
-    pub iterations: usize,
-    /// Into how many pieces an orbit is cut, from 1 to its period. `None` cuts at every iterate, which is the
-    /// least sensitive and lets all shots run side by side.
-    pub segments: Option<usize>,
-}
-
-impl Default for NewtonOptions {
-    fn default() -> Self {
-        Self {
-            tolerance: 1e-11,
-            iterations: 18,
-            segments: None,
-        }
-    }
-}
 
 /// An eigenvalue of the derivative of the map once around an orbit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -154,6 +133,30 @@ impl Orbit {
         self.multipliers.iter().any(one)
     }
 
+    /// All switches of one period in time order.
+    pub(crate) fn switches(&self) -> Vec<Switch> {
+        self.crossings
+            .iter()
+            .flat_map(|all| switches(all))
+            .collect()
+    }
+
+    /// Number of switches in one period.
+    pub(crate) fn switch_count(&self) -> usize {
+        self.crossings.iter().map(Vec::len).sum()
+    }
+
+    /// The touch with the smallest value, among those that `counts` lets through, and its iterate.
+    pub(crate) fn nearest_touch(
+        &self,
+        counts: impl Fn(usize, &Touch) -> bool,
+    ) -> Option<(usize, Touch)> {
+        let all = self.touches.iter().enumerate();
+        all.flat_map(|(iterate, touches)| touches.iter().map(move |touch| (iterate, *touch)))
+            .filter(|(iterate, touch)| touch.value.is_finite() && counts(*iterate, touch))
+            .min_by(|a, b| a.1.value.total_cmp(&b.1.value))
+    }
+
     /// The orbit of a converged pass, unless its derivative overflows. Derivatives of one iterate are as accurate as
     /// `tolerance`.
     pub(crate) fn of(pass: &Pass, tolerance: f64) -> Result<Self, NotFound> {
@@ -199,76 +202,6 @@ impl Orbit {
             parameters: self.parameters.clone(),
             places: self.places.clone(),
         }
-    }
-}
-
-/// Why there is no orbit. Each says how far Newton's method came.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum NotFound {
-    /// No place to begin with.
-    #[error("an orbit needs one place per iterate, and none was given")]
-    NoPlaces,
-    /// A start that is no state of the map.
-    #[error("place {place} of the start must hold {dimension} finite numbers")]
-    BadPlace {
-        /// Which, from 0.
-        place: usize,
-        /// Length of a state.
-        dimension: usize,
-    },
-    /// The residual stopped falling, or fell too slowly.
-    #[error(
-        "Newton's method came to a residual of {residual:.1e} in {iterations} steps and no further; \
-         try a start nearer to the orbit"
-    )]
-    NotConverged {
-        /// Steps taken.
-        iterations: usize,
-        /// Largest component of P(x_i) - x_(i+1).
-        residual: f64,
-        /// The last guess.
-        places: Vec<Place>,
-    },
-    /// The equations for a step have no unique solution.
-    #[error(
-        "the equations of Newton's method are singular at a residual of {residual:.1e}: \
-         a fold or a branch point is near, or the derivative overflows"
-    )]
-    Singular {
-        /// Largest component of P(x_i) - x_(i+1).
-        residual: f64,
-        /// The last guess.
-        places: Vec<Place>,
-    },
-    /// The map keeps a quantity, and an orbit with the value of the start was not found.
-    #[error(
-        "orbits lie in a family, since a quantity is kept along each motion, and none was found with the value that \
-         it has at the start; try a start nearer to the orbit"
-    )]
-    OtherMember {
-        /// An orbit with another value.
-        places: Vec<Place>,
-    },
-    /// The map has no image there.
-    #[error("Newton's method left the map at a residual of {residual:.1e}: {reason}")]
-    Lost {
-        /// What the map said.
-        reason: Lost,
-        /// Largest component of P(x_i) - x_(i+1); infinite at the start.
-        residual: f64,
-        /// The last guess that has images, or the start.
-        places: Vec<Place>,
-    },
-}
-
-impl NotFound {
-    /// Whether the work was stopped from outside.
-    pub(crate) fn is_stop(&self) -> bool {
-        let Self::Lost { reason, .. } = self else {
-            return false;
-        };
-        *reason == Lost::Interrupted
     }
 }
 

@@ -11,26 +11,18 @@
 //! so one pass around the orbit leaves n equations for d_1 and dp, whatever the number of segments. Inside
 //! a segment the gaps are zero. Shots of all segments, and those for C by differences, are asked together.
 
-use crate::differences::{DIFFERENCE, moved};
+use crate::differences::{DIFFERENCE, Free, moved, slope};
 use crate::events::switches;
 use crate::kept::Kept;
 use crate::linear::{self, minus, plus, size, times};
-use crate::{Family, Image, Lost, Matrix, NewtonOptions, NotFound, Place, Shot};
+use crate::map::{Family, Image, Lost, Matrix, Place, Shot};
+use crate::newton::{NewtonOptions, NotFound};
 
 /// A step is cut in halves at most so often.
 const HALVINGS: usize = 6;
 
 /// A residual that no longer falls counts as rounding below this multiple of the tolerance.
 const STAGNATION: f64 = 100.0;
-
-/// A parameter that may change.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Free {
-    /// Its place among the parameters.
-    pub(crate) index: usize,
-    /// The unit it is measured in where it stands beside states.
-    pub(crate) unit: f64,
-}
 
 /// The equations of an orbit.
 pub(crate) struct Shooting<'a, F: ?Sized> {
@@ -391,7 +383,7 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
             for free in self.free {
                 let both =
                     [answers.next(), answers.next()].map(|answer| answer.unwrap_or_else(missing));
-                columns.push(self.slope(&shot, &image, free, &both)?);
+                columns.push(slope(self.family, &shot, &image, free, &both)?);
             }
             all.push((image, columns));
         }

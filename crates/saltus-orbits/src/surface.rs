@@ -1,8 +1,9 @@
 //! The surface that orbits form over two parameters, and a function on it that is zero on a curve.
 
 use crate::continuation::ContinuationOptions;
+use crate::differences::Free;
 use crate::linear::{self, dot, norm, plus, scaled};
-use crate::shooting::{Change, Free, Pass, Shooting};
+use crate::shooting::{Change, Pass, Shooting};
 use crate::{Family, Multiplier, NotFound, Orbit, SpecialKind, events};
 
 /// Grazing is approached to this value of the guard, since there is no value beyond zero.
@@ -73,7 +74,7 @@ impl<F: Family + ?Sized> Surface<'_, F> {
             SpecialKind::PeriodDoubling => Some(determinant(-1.0)),
             SpecialKind::NeimarkSacker { .. } => pair.map(|mu| mu.modulus() - 1.0),
             SpecialKind::Grazing { unit } => {
-                let touch = events::nearest_touch(&orbit, |_, touch| touch.unit == unit);
+                let touch = orbit.nearest_touch(|_, touch| touch.unit == unit);
                 touch.map(|(_, touch)| touch.value - TOUCHING)
             }
             _ => None,
@@ -101,7 +102,7 @@ impl<F: Family + ?Sized> Surface<'_, F> {
         })?;
         let guess = base.orbit.guess().moved(&self.free, 1.0, &change);
         let mut spot = self.spot(self.shooting().correct(&guess, along)?, base.pair)?;
-        let [here, there] = [&base.orbit, &spot.orbit].map(events::sequence);
+        let [here, there] = [&base.orbit, &spot.orbit].map(Orbit::switches);
         // With other switches it is another guard, or another of its minima, that is nearest.
         if self.has_sides() && !events::same(&here, &there) {
             spot.psi = None;

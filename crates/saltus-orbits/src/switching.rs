@@ -1,11 +1,11 @@
 //! From a special point to the other branches that meet there.
 
 use crate::continuation::Point;
+use crate::detect::flip;
 use crate::linear::{self, dot, plus, scaled, unit};
 use crate::locate::NARROW;
 use crate::path::Path;
 use crate::shooting::Guess;
-use crate::special::flip;
 use crate::{Family, Orbit, Special, find_orbit};
 
 /// Steps of the secant method at most.

@@ -218,10 +218,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
         if shortest_period(&point.orbit.places) < point.orbit.period() {
             return Err(End::StepTooSmall);
         }
-        if events::same(
-            &events::sequence(&last.orbit),
-            &events::sequence(&point.orbit),
-        ) {
+        if events::same(&last.orbit.switches(), &point.orbit.switches()) {
             if angle(&last.tangent, &point.tangent) > self.options.angle {
                 return Err(End::StepTooSmall);
             }
