@@ -9,7 +9,8 @@ use saltus_hybrid::{
     Task, integrate_all,
 };
 
-use crate::map::{Crossing, Family, Image, Lost, Matrix, Place, Shot, Touch};
+use crate::map::{Crossing, Family, Image, Lost, Place, Shot, Touch};
+use crate::matrix::Matrix;
 
 /// Trajectories that a thread runs at the cost of one.
 const LANES: usize = 8;

@@ -3,7 +3,7 @@
 //! The gradient g of a kept quantity obeys g(P(x)) DP(x) = g(x). For quadratic quantities, such as the square of a
 //! length, g = a + B x, and these equations along some iterates of the start are linear in a and B.
 
-use crate::linear::{self, dot, minus, norm, plus, scaled, size, times};
+use crate::linear::{self, dot, minus, norm, plus, scaled, size, times, whole_norm};
 use crate::{Family, Matrix, Place, Shot};
 
 /// A vector solves the equations if no more than this part of them is left: derivatives have errors of some 1e-12.
@@ -97,7 +97,8 @@ pub(crate) fn kept<F: Family + ?Sized>(
         place = next;
     }
     let equations = Matrix::from_fn(rows.len(), unknown, |row, col| rows[row][col]);
-    let solves = |u: &Vec<f64>| norm(&times(&equations, u)) <= SOLVED * equations.norm_l2();
+    let most = SOLVED * whole_norm(&equations);
+    let solves = |u: &Vec<f64>| norm(&times(&equations, u)) <= most;
     let solutions = linear::null_space(&equations, unknown)?;
     let quantity = |u: Vec<f64>| {
         let entry = |i: usize, j: usize| pairs.iter().position(|&p| p == (i.min(j), i.max(j)));

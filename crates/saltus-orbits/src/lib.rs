@@ -23,6 +23,7 @@ mod kept;
 mod linear;
 mod locate;
 mod map;
+mod matrix;
 mod nature;
 mod newton;
 mod orbit;
@@ -45,7 +46,8 @@ pub use exponents::{Dimension, Exponent, ExponentError, Running, Spectrum, Weigh
 pub use flow::Stroboscopic;
 pub use follow::{follow, follow_both};
 pub use follower::{Follower, spectrum_of};
-pub use map::{Crossing, Family, Image, Lost, Matrix, Place, Shot, Touch};
+pub use map::{Crossing, Family, Image, Lost, Place, Shot, Touch};
+pub use matrix::Matrix;
 pub use nature::{Criteria, Doubt, Nature, Recurrence, Verdict, judge};
 pub use newton::{NewtonOptions, NotFound};
 pub use orbit::{Multiplier, Orbit, Stability, find_orbit};

@@ -1,7 +1,6 @@
 //! The hinge between whatever moves and the questions asked of it: a map that depends on parameters.
 
-/// Derivatives and other dense matrices.
-pub type Matrix = faer::Mat<f64>;
+use crate::matrix::Matrix;
 
 /// Where a trajectory is at the section: modes and state together; neither means anything alone.
 #[derive(Clone, Debug, Default, PartialEq)]

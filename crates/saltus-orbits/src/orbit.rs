@@ -3,7 +3,8 @@
 use crate::events::{Switch, switches};
 use crate::kept::{Kept, kept};
 use crate::linear::{self, minus, size};
-use crate::map::{Crossing, Family, Matrix, Place, Touch};
+use crate::map::{Crossing, Family, Place, Touch};
+use crate::matrix::Matrix;
 use crate::newton::{NewtonOptions, NotFound};
 use crate::shooting::{Guess, Pass, Shooting};
 
@@ -170,7 +171,7 @@ impl Orbit {
             });
         };
         let off = tolerance * pass.growth();
-        let (size, power) = (monodromy.norm_l2(), 1.0 / values.len() as f64);
+        let (size, power) = (linear::whole_norm(&monodromy), 1.0 / values.len() as f64);
         // where the condition says nothing, the bound of Elsner (1985)
         let most = (2.0 * size + off).powf(1.0 - power) * off.powf(power);
         let mut multipliers: Vec<Multiplier> = values

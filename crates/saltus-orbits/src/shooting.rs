@@ -14,8 +14,9 @@
 use crate::differences::{DIFFERENCE, Free, moved, slope};
 use crate::events::switches;
 use crate::kept::Kept;
-use crate::linear::{self, minus, plus, size, times};
-use crate::map::{Family, Image, Lost, Matrix, Place, Shot};
+use crate::linear::{self, minus, plus, size, times, whole_norm};
+use crate::map::{Family, Image, Lost, Place, Shot};
+use crate::matrix::Matrix;
 use crate::newton::{NewtonOptions, NotFound};
 
 /// A step is cut in halves at most so often.
@@ -94,11 +95,11 @@ impl Pass {
     /// The derivative of the whole way round at the first place, M, and that by the free parameters.
     pub(crate) fn around(&self) -> Option<(Matrix, Columns)> {
         let n = self.places[0].x.len();
-        let mut m = Matrix::identity(n, n);
+        let mut m = Matrix::identity(n);
         let mut columns = vec![vec![0.0; n]; self.columns[0].len()];
         for i in 0..self.places.len() {
             let a = self.derivative(i)?;
-            m = a * &m;
+            m = linear::product(a, &m);
             for (column, by) in columns.iter_mut().zip(&self.columns[i]) {
                 *column = plus(&times(a, column), 1.0, by);
             }
@@ -143,7 +144,7 @@ impl Pass {
     /// By how much errors of single derivatives, relative to their sizes, may change that of the whole way round.
     pub(crate) fn growth(&self) -> f64 {
         let n = self.places[0].x.len();
-        let (mut growth, mut before) = (0.0, Matrix::identity(n, n));
+        let (mut growth, mut before) = (0.0, Matrix::identity(n));
         let derivatives: Vec<&Matrix> = self
             .images
             .iter()
@@ -151,14 +152,14 @@ impl Pass {
             .collect();
         // products of all that come after each
         let mut after = vec![1.0];
-        let mut product = Matrix::identity(n, n);
+        let mut product = Matrix::identity(n);
         for a in derivatives.iter().skip(1).rev() {
-            product = &product * *a;
-            after.push(product.norm_l2());
+            product = linear::product(&product, a);
+            after.push(whole_norm(&product));
         }
         for (a, after) in derivatives.iter().zip(after.into_iter().rev()) {
-            growth += after * a.norm_l2() * before.norm_l2();
-            before = *a * &before;
+            growth += after * whole_norm(a) * whole_norm(&before);
+            before = linear::product(a, &before);
         }
         growth
     }
@@ -167,7 +168,7 @@ impl Pass {
     pub(crate) fn best_kept(&self) -> Option<Vec<f64>> {
         let (m, _) = self.around()?;
         let equations = linear::shifted(&m, 1.0);
-        linear::null_space(&equations.transpose().to_owned(), 1)?.pop()
+        linear::null_space(&equations.transposed(), 1)?.pop()
     }
 
     /// Newton's step to where some quantities have their values.
