@@ -54,9 +54,9 @@ impl SystemBuilder {
         self.program.scales[index] = scale;
     }
 
-    /// Lets errors of all states be relative to the largest of them, and to `scale` where that is smaller: they are one
-    /// body, and what matters of a small part of it is its share of the whole. A state beyond 16 scales is not part of it
-    /// any more, and each is then relative to its own size. Takes the place of all scales so far.
+    /// Lets errors of all states be relative to the largest of them, and to `scale` where that is smaller: they are
+    /// coordinates of one body, and a small one matters by its share of the whole. A state beyond 16 scales is no part
+    /// of it any more, and each is then relative to its own size. Replaces all scales so far.
     pub fn scale_together(&mut self, scale: f64) {
         self.program.scales.fill(scale);
         self.program.together = true;
@@ -171,7 +171,7 @@ impl SystemBuilder {
         self.append_adiabatic(count)
     }
 
-    /// As [`Self::reserve_adiabatic`], beside others.
+    /// Announces such nodes beside others.
     pub(crate) fn append_adiabatic(&mut self, count: usize) -> Vec<Node> {
         self.push(Operation::Adiabatic {
             count,
@@ -181,9 +181,9 @@ impl SystemBuilder {
         })
     }
 
-    /// Says what the reserved nodes are: x = sum over n >= 1 of R_n (D^2 + `damping` D)^n q, where q are
-    /// `sources` and D is the time derivative along the solution. This is how fast, linear oscillators
-    /// follow q beyond their static response, as far as the list of R goes.
+    /// Defines the reserved nodes: x = sum over n >= 1 of R_n (D^2 + `damping` D)^n q, where q are
+    /// `sources` and D is the time derivative along the solution. So fast, linear oscillators follow q
+    /// beyond their static response, by one term for each R.
     ///
     /// # Panics
     /// If nothing was reserved, or an R is not of `count` rows of one number for each source.
@@ -266,12 +266,12 @@ impl SystemBuilder {
         Unit(self.program.units.len() - 1)
     }
 
-    /// The modes of a reserved unit, each a list of what ends it.
+    /// Gives a reserved unit its modes, each a list of the transitions that end it.
     pub fn define_unit(&mut self, unit: Unit, modes: Vec<Vec<Transition>>) {
         self.program.units[unit.0] = modes;
     }
 
-    /// A unit with its modes, each a list of what ends it.
+    /// Adds a unit with its modes, each a list of the transitions that end it.
     pub fn unit(&mut self, modes: Vec<Vec<Transition>>) -> Unit {
         let unit = self.reserve_unit();
         self.define_unit(unit, modes);
@@ -289,7 +289,7 @@ impl SystemBuilder {
     /// The system; `period` is the sampling interval where nothing drives it, else it is 2 pi/omega.
     ///
     /// # Errors
-    /// [`BuildError`] names the part that is missing or wrong.
+    /// [`BuildError`] for a part that is missing or wrong.
     pub fn build(self, period: f64) -> Result<System, BuildError> {
         let mut program = self.program;
         let period = program.sampling_interval(period)?;

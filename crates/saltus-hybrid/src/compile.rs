@@ -1,4 +1,4 @@
-//! From the program of a builder to the flat one that the series code runs.
+//! Compiles the program of a builder to the flat one that the series code runs.
 
 use crate::flatten::{FlatOp, Flattener, Followers, Gradient, Kind, Slots};
 use crate::program::{BuildError, Gate, Node, Program, Transition};

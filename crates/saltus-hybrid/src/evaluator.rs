@@ -14,7 +14,7 @@ pub struct Evaluator {
 }
 
 impl Evaluator {
-    /// For this system.
+    /// An evaluator for this system.
     pub fn new(system: &System) -> Self {
         let modes = vec![0; system.unit_count()];
         Self {
@@ -40,7 +40,7 @@ impl Evaluator {
     }
 
     /// Derivative of every node while the states change at the rates `dx`, at the point that
-    /// [`Self::nodes`] was called for last. What follows adiabatically changes as it does in time.
+    /// [`Self::nodes`] was called for last. Nodes that follow adiabatically change as they do in time.
     pub fn along(&mut self, dx: &[f64]) -> &[f64] {
         let structure = &self.system.structure;
         series::along(structure, &self.coefficients, dx, &mut self.series);

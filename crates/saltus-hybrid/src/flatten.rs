@@ -3,7 +3,7 @@
 use crate::program::{BuildError, Node, Operation};
 use crate::structure::Place;
 
-/// Which nodes keep all their orders, and where: the factors of products side by side, as the products
+/// Slots of the nodes that keep all their orders: factors of products side by side, as the products
 /// are listed, then states and guards that are no factors.
 pub(crate) struct Slots {
     pub(crate) count: usize,
@@ -84,7 +84,7 @@ impl Slots {
         !self.is_read[node] && self.of[node].len() == 1
     }
 
-    /// Where the results of an operation go.
+    /// Place of the results of an operation.
     pub(crate) fn place(&self, op: &FlatOp) -> Place {
         let may = matches!(op.kind, Kind::Linear { .. } | Kind::Matrix { .. });
         let nodes = op.out..op.out + op.count;
@@ -248,12 +248,12 @@ impl Flattener {
         Ok(())
     }
 
-    /// For each operation whether these nodes depend on it.
+    /// Whether these nodes depend on each operation.
     pub(crate) fn needed_by(&self, guards: &[usize]) -> Vec<bool> {
         self.cone(guards).0
     }
 
-    /// Of what a node is made: states, and the ranges of coefficients of its sums; `None` if of everything.
+    /// States that a node depends on, and the ranges of coefficients of its sums; `None` if it depends on derivatives.
     pub(crate) fn made_of(
         &self,
         node: usize,

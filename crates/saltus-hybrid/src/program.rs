@@ -19,10 +19,10 @@ pub enum Node {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unit(pub(crate) usize);
 
-/// A mode of a unit, by its place in the list given to [`SystemBuilder::unit`].
+/// A mode of a unit, by its place in the list given to [`SystemBuilder::unit`](crate::SystemBuilder::unit).
 pub type Mode = usize;
 
-/// What ends a mode, and what happens then.
+/// The end of a mode: the guard that ends it, the mode that follows, the states that jump.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transition {
     /// The quantity watched.
@@ -33,13 +33,13 @@ pub struct Transition {
     pub to: Mode,
     /// States that jump: x := value of the node, all evaluated before the first assignment.
     pub resets: Vec<(usize, Node)>,
-    /// Guards that are zero after the switch by construction, with the multiplicity of that zero. It need not
-    /// be said: zeros are found, to rounding, where they are. Said, it also holds where rounding hides it.
+    /// Guards that are zero after the switch by construction, with the multiplicity of that zero. Zeros are found
+    /// to rounding without this list; an entry also holds where rounding hides the zero.
     pub vanishing: Vec<(Node, u8)>,
 }
 
 impl Transition {
-    /// Leave for `to` when `guard` falls to zero.
+    /// Leaves for `to` when `guard` falls to zero.
     pub fn falling(guard: Node, to: Mode) -> Self {
         Self {
             guard,
@@ -50,7 +50,7 @@ impl Transition {
         }
     }
 
-    /// Leave for `to` when `guard` rises to zero.
+    /// Leaves for `to` when `guard` rises to zero.
     pub fn rising(guard: Node, to: Mode) -> Self {
         Self {
             sign: -1.0,
@@ -58,14 +58,14 @@ impl Transition {
         }
     }
 
-    /// With `state` := `value` at the switch.
+    /// Adds the reset `state` := `value` at the switch.
     #[must_use]
     pub fn reset(mut self, state: usize, value: Node) -> Self {
         self.resets.push((state, value));
         self
     }
 
-    /// With `guard` zero to `multiplicity` after the switch.
+    /// Declares `guard` zero to `multiplicity` after the switch.
     #[must_use]
     pub fn vanishing(mut self, guard: Node, multiplicity: u8) -> Self {
         self.vanishing.push((guard, multiplicity));
@@ -103,7 +103,7 @@ pub(crate) enum Operation {
 }
 
 impl Operation {
-    /// How many nodes it makes.
+    /// Number of nodes that it makes.
     pub(crate) fn nodes(&self) -> usize {
         match self {
             Self::Linear { .. } => 1,
@@ -236,7 +236,7 @@ fn rows_of(weights: &[f64], columns: usize) -> Vec<Vec<f64>> {
     rows
 }
 
-/// Why a builder's parts do not make a system.
+/// Reason why the parts of a builder do not make a system.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BuildError {

@@ -1,8 +1,8 @@
 //! Classical Runge-Kutta of order 4 with switches located inside the step.
 //!
 //! The solution within a step is RK4 itself with a shorter step: of order 4 everywhere, so a switch
-//! costs no order. A cubic Hermite interpolant of each guard says where to look; Newton on the
-//! method's own solution says where it is.
+//! costs no order. A cubic Hermite interpolant of each guard shows where to look; Newton's method on RK4
+//! itself finds the root.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -72,7 +72,7 @@ struct Run<'a, T> {
     lane: Lane<T>,
     stepper: Stepper,
     x: Vec<f64>,
-    /// How large each state has been in this period.
+    /// Largest size of each state in this period.
     sizes: Vec<f64>,
     /// Point of the grid at which the coming step ends, from 1 in each period.
     slot: u32,

@@ -6,7 +6,7 @@ use crate::task::{IntegrateError, Method, Options, Task};
 use crate::{rk4, taylor};
 
 /// Runs all tasks on this thread and gives each to `done` when it has ended, in no particular order.
-/// What a task sees does not depend on its neighbours, to the bit.
+/// The numbers that a task sees do not depend on its neighbours, to the bit.
 ///
 /// # Errors
 /// [`IntegrateError`] for options out of range, legs that do not fit together, and a raised `stop`.

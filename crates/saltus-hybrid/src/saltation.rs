@@ -8,7 +8,7 @@
 //! ```
 //!
 //! (the saltation matrix; di Bernardo et al., Piecewise-smooth Dynamical Systems (2008), section 2.5).
-//! Where the field does not jump and nothing is reset it is the identity. A switch that fires at once after
+//! It is the identity if the field does not jump and nothing is reset. A switch that fires at once after
 //! another has the s of that one: a neighbour that comes later makes all of the chain later.
 
 use crate::evaluator::Evaluator;
@@ -108,7 +108,7 @@ fn jump(
     jump[..size].iter().any(jumps).then_some(jump)
 }
 
-/// How much later neighbours reach a place where the rate of a guard vanishes: the rate takes the part of
+/// Delays of neighbours at a place at which the rate of a guard vanishes: the rate takes the part of
 /// the guard, and its derivatives are differences.
 fn turn<'a>(
     evaluator: &mut Evaluator,

@@ -1,6 +1,6 @@
 //! Taylor coefficients of every node, order by order (automatic differentiation in time).
 //!
-//! With node(t0 + s) = sum_k node[k] s^k: a sum is a sum in each order, a product is the Cauchy
+//! Let node(t0 + s) = sum_k node[k] s^k. A sum is a sum in each order, a product is the Cauchy
 //! product, and x' = node gives x[k+1] = node[k]/(k+1). See Jorba & Zou, Experiment. Math. 14 (2005).
 
 use crate::arith::{Arith, Scalar};
@@ -35,7 +35,7 @@ fn room(structure: &Structure) -> usize {
 }
 
 impl<C: Copy + Default> Series<C> {
-    /// Of this order, or of the order that values take to compute.
+    /// A series of this order, or of the order that values take to compute.
     pub(crate) fn new(structure: &Structure, order: usize) -> Self {
         let order = order.max(structure.order_of_values());
         Self {
@@ -88,7 +88,7 @@ impl<C: Copy + Default> Series<C> {
         &self.now
     }
 
-    /// Every stored coefficient of a program of so many nodes, to be cleared.
+    /// Every stored coefficient of a program of `nodes` nodes, to be cleared.
     pub(crate) fn cells(&mut self, nodes: usize) -> impl Iterator<Item = &mut C> {
         self.now[..nodes].iter_mut().chain(&mut self.kept)
     }
@@ -105,7 +105,7 @@ impl<C: Copy + Default> Series<C> {
     }
 }
 
-/// Where sums are read from and written to.
+/// Places that sums are read from and written to.
 struct Sums<'a, A: Arith, const M: usize> {
     arith: A,
     stream: &'a [A::Cell],
@@ -341,7 +341,7 @@ pub(crate) fn expand<A: Arith>(
     }
 }
 
-/// One round.
+/// Fills all orders once, with the adiabatic nodes as they are.
 #[inline(always)]
 fn expand_once<A: Arith>(
     arith: A,

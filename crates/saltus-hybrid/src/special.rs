@@ -38,7 +38,7 @@ macro_rules! shapes {
                 None
             }
 
-            /// As the interpreter's `expand`.
+            /// Fills all orders, as the interpreter's `expand` does.
             #[inline(always)]
             pub(crate) fn expand<A: Arith>(self, arith: A, stream: &[A::Cell], kept: &mut [A::Cell]) {
                 match self {

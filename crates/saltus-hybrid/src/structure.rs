@@ -1,7 +1,7 @@
 //! The flat program that the series code runs: data alone.
 //!
 //! Nodes are flat indices, states first and then operations. Nodes that are needed in all orders of a series have
-//! slots; [`Structure::stream`] says in which order the program reads its coefficients. Numbers stand elsewhere, so
+//! slots; [`Structure::stream`] lists coefficients in the order in which they are read. Numbers stand elsewhere, so
 //! that all members of an ensemble share one structure.
 
 use std::sync::Arc;
@@ -32,7 +32,7 @@ pub(crate) struct Structure {
     pub(crate) cubics: Vec<Cubic>,
     /// Nodes that follow the rest adiabatically, if any do; several lists with tangents.
     pub(crate) adiabatic: Vec<Adiabatic>,
-    /// (node, slot) of what each step keeps.
+    /// (node, slot) of the nodes that steps keep.
     pub(crate) keeps: Vec<(u32, u32)>,
     /// (node, slot) of the nodes that are in a slot only.
     pub(crate) kept_only: Vec<(u32, u32)>,
@@ -77,7 +77,7 @@ impl Structure {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Step {
     pub(crate) op: Op,
-    /// Which of its nodes to keep, a range of [`Structure::keeps`].
+    /// The nodes to keep, a range of [`Structure::keeps`].
     pub(crate) keeps: (usize, usize),
 }
 
@@ -116,19 +116,19 @@ pub(crate) enum Op {
     Cubic(usize),
 }
 
-/// Where the results of an operation go, one after the other.
+/// Place of the results of an operation, which lie side by side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Place {
-    /// To nodes, for the order in hand only (and from there to the slots in [`Step::keeps`]).
+    /// Nodes, for the order in hand only (and from there the slots in [`Step::keeps`]).
     Now(usize),
-    /// To slots at once: nothing but products reads them.
+    /// Slots at once: nothing but products reads them.
     Kept(usize),
 }
 
 /// Sums c + sum of coefficient times node with equally many terms, which do not depend on each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Group {
-    /// Where the first goes; the others follow.
+    /// Place of the first; the others follow.
     pub(crate) out: Place,
     /// Number of sums, at most [`GROUP`].
     pub(crate) width: usize,

@@ -12,7 +12,7 @@ pub struct System {
     pub(crate) structure: Arc<Structure>,
     pub(crate) coefficients: Arc<[f64]>,
     pub(crate) tables: Arc<[f64]>,
-    /// Of each state that takes part in error control.
+    /// Scale of each state that takes part in error control.
     pub(crate) scales: Arc<[f64]>,
     pub(crate) period: f64,
     /// The program it was built from, without the coefficients.
@@ -55,7 +55,7 @@ impl System {
     }
 
     /// A point with the drive at phase 0 and quadratures at 0; `x` holds the states declared by
-    /// [`SystemBuilder::state`], in order.
+    /// [`SystemBuilder::state`](crate::SystemBuilder::state), in order.
     ///
     /// # Panics
     /// If `x` or `modes` are longer than the system's.
@@ -103,7 +103,7 @@ impl System {
         Shape::of(&self.structure).map(Shape::written)
     }
 
-    /// Flat index of a node in the output of [`Evaluator::nodes`].
+    /// Flat index of a node in the output of [`Evaluator::nodes`](crate::Evaluator::nodes).
     pub fn index(&self, node: Node) -> usize {
         match node {
             Node::State(i) => i,
@@ -112,7 +112,7 @@ impl System {
     }
 }
 
-/// Phase and state together; neither means anything alone.
+/// Modes and state together; neither means anything alone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
     /// Mode of each unit.

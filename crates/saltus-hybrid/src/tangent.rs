@@ -1,10 +1,10 @@
-//! The variational equations of a program, as more of the same program.
+//! Variational equations of a program, as more of the same program.
 //!
 //! A column d of the tangent flow obeys d' = Df(x) d. The derivative of a sum is a sum and that of a product
 //! two products, so the equations of any number of columns are appended to a program, operation by
 //! operation. The step follows the trajectory and the columns, each held to the tolerance by its own size: a
-//! fast oscillation that the trajectory has lost is alive in its tangents. The drive keeps its phase, so a column has as many components as there
-//! are declared states.
+//! fast oscillation that the trajectory has lost is alive in its tangents. The drive keeps its phase, so a column
+//! has as many components as there are declared states.
 
 use std::sync::Arc;
 
@@ -55,7 +55,7 @@ impl System {
         tangents.map_or(&[], |tangents| &x[tangents.first..])
     }
 
-    /// The same, to be set before a run.
+    /// The tangent columns, to be set before a run.
     pub fn columns_mut<'a>(&self, x: &'a mut [f64]) -> &'a mut [f64] {
         let tangents = self.structure.tangents.as_ref();
         tangents.map_or(&mut [], |tangents| &mut x[tangents.first..])
@@ -151,7 +151,7 @@ impl<'a> Slopes<'a> {
         }
     }
 
-    /// Of a sum, whose coefficients may depend on modes.
+    /// Differentiates a sum, whose coefficients may depend on modes.
     fn sum(&mut self, constant: usize, terms: &[Node]) -> Slope {
         let terms: Vec<(usize, f64, Node)> = terms
             .iter()
@@ -173,7 +173,7 @@ impl<'a> Slopes<'a> {
         vec![(1.0, out)]
     }
 
-    /// Of a matrix times nodes.
+    /// Differentiates a matrix times nodes.
     fn times(&mut self, rows: &[Vec<f64>], slopes: &[Slope]) -> Vec<Slope> {
         let there: Vec<(usize, (f64, Node))> = slopes
             .iter()

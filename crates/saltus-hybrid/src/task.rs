@@ -10,7 +10,7 @@ use crate::program::Mode;
 use crate::structure::Structure;
 use crate::system::{Point, System};
 
-/// How to integrate.
+/// Method of integration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
     /// Taylor series with adaptive step and exact dense output, eight trajectories at a time.
@@ -40,7 +40,7 @@ impl Method {
         }
     }
 
-    /// How far a guard may be from zero by the error of the solution, relative to its terms: what adds up over
+    /// Distance of a guard from zero that the error of the solution may make, relative to its terms: the sum over
     /// some steps, and no more than a clear distance.
     pub(crate) fn error(self) -> f64 {
         match self {
@@ -50,15 +50,15 @@ impl Method {
     }
 }
 
-/// Which instructions the series of eight trajectories are computed with.
+/// Instructions that the series of eight trajectories are computed with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Instructions {
-    /// The best that this machine has.
+    /// The best of this machine.
     #[default]
     Best,
     /// AVX2 with fused multiply-adds, or the best where there is none: the same bits as AVX-512.
     Avx2,
-    /// What every machine of this architecture has. Without fused multiply-adds results differ from
+    /// Those of every machine of this architecture. Without fused multiply-adds results differ from
     /// the others by rounding.
     Baseline,
 }
@@ -90,14 +90,14 @@ impl Instructions {
 /// Settings of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// The stepper.
+    /// Method of integration.
     pub method: Method,
     /// Switches allowed in one period, all units together, before the run ends as
     /// [`Status::Chattering`]. A person switches twice; 100 leaves room for any real motion.
     pub max_switches: u32,
     /// Steps allowed in one period before the run ends as [`Status::TooManySteps`].
     pub max_steps: u32,
-    /// For tests and for results that are to be the same on other machines.
+    /// Instruction set: for tests, and for results that must be the same on other machines.
     pub instructions: Instructions,
     /// Samples in each period, equally far apart, the last at its end. Steps end on all of them.
     pub samples_per_period: u32,
@@ -121,9 +121,9 @@ impl Default for Options {
 pub struct Leg {
     /// The system, with its parameters.
     pub system: System,
-    /// Where it starts, at phase 0 of the drive.
+    /// First state, at phase 0 of the drive.
     pub start: Point,
-    /// How many periods.
+    /// Number of periods.
     pub periods: u64,
 }
 
@@ -132,7 +132,7 @@ pub struct Leg {
 pub struct Sample<'a> {
     /// The period that it belongs to, from 1; completed at its last sample.
     pub period: u64,
-    /// Which sample of the period, from 1 to [`Options::samples_per_period`].
+    /// Number of the sample within the period, from 1 to [`Options::samples_per_period`].
     pub part: u32,
     /// Mode of each unit.
     pub modes: &'a [Mode],
@@ -142,7 +142,7 @@ pub struct Sample<'a> {
     pub dwell: &'a [Vec<f64>],
 }
 
-/// What happened at a switch.
+/// Kind of a switch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SwitchKind {
     /// The unit left a mode for another (or for the same one, with a reset).
@@ -163,9 +163,9 @@ pub struct Switch<'a> {
     pub period: u64,
     /// Time since the start of the period.
     pub time: f64,
-    /// Which unit.
+    /// Unit that switched.
     pub unit: usize,
-    /// What happened.
+    /// Mode change or tangency.
     pub kind: SwitchKind,
     /// State just before any reset; empty for a tangency.
     pub x: &'a [f64],
@@ -188,14 +188,14 @@ pub struct Step<'a> {
     pub(crate) structure: &'a Structure,
 }
 
-/// Where a guard in force came near to zero and turned back.
+/// A minimum of a guard in force: it came near to zero and turned back.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Minimum {
-    /// Which unit.
+    /// Unit whose guard it is.
     pub unit: usize,
-    /// Which transition of its present mode.
+    /// Transition of the present mode of that unit.
     pub transition: usize,
-    /// When, since the start of the step.
+    /// Time since the start of the step.
     pub since: f64,
     /// Value of the guard there, positive while the mode lasts.
     pub value: f64,
@@ -236,11 +236,11 @@ impl Step<'_> {
     }
 }
 
-/// How a trajectory ended. Every variant but the first says what stopped it.
+/// The end of a trajectory. Every variant but the first names what stopped it.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Status {
-    /// All periods were run, or the task said stop.
+    /// All periods were run, or the task stopped.
     #[error("completed")]
     Completed,
     /// More switches in one period than allowed: they accumulate (Zeno) or the guard chatters.
@@ -261,7 +261,7 @@ pub enum Status {
         /// First state that is not finite.
         state: usize,
     },
-    /// The steps became so many that the period would never end.
+    /// More steps in one period than allowed: it might never end.
     #[error(
         "{count} steps within one period by t = {time}: loosen the tolerance or look for a singularity"
     )]
@@ -286,7 +286,7 @@ fn chattering(time: f64, count: u32, at_once: bool) -> String {
 }
 
 impl Status {
-    /// A word for tables.
+    /// The word for it in tables.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Completed => "completed",
@@ -300,7 +300,7 @@ impl Status {
 /// The end of one leg, with the work done.
 #[derive(Clone, Debug, PartialEq)]
 pub struct End {
-    /// How it ended.
+    /// Completed, or the reason why not.
     pub status: Status,
     /// Last state.
     pub point: Point,
@@ -341,18 +341,18 @@ pub trait Task: Send {
     fn end(&mut self, end: End) -> Option<Leg>;
 }
 
-/// Why a run did not happen, or did not finish. What happens to a trajectory is a [`Status`] instead.
+/// Reason why a run did not begin, or did not finish. The fate of a trajectory is a [`Status`] instead.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum IntegrateError {
     /// An option outside its range.
     #[error("{option} = {value}: {expected}")]
     Option {
-        /// Which.
+        /// Its name.
         option: &'static str,
         /// The value given.
         value: f64,
-        /// What would be right.
+        /// Numbers that are possible.
         expected: &'static str,
     },
     /// A leg whose system has another program than those it would share lanes with.

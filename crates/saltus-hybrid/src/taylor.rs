@@ -1,8 +1,8 @@
 //! Taylor series on eight asynchronous lanes.
 //!
 //! Each lane of the vector register is a trajectory with its own parameters, time, step, modes and
-//! end; a lane that ends takes the next task. The series of all lanes are computed together; what
-//! differs between lanes (switches, samples) is a few scalar operations each. A single trajectory is
+//! end; a lane that ends takes the next task. The series of all lanes are computed together;
+//! switches and samples, which differ between lanes, take a few scalar operations each. A single trajectory is
 //! a run with seven idle lanes: the same code, hence the same bits.
 
 use std::sync::Arc;
@@ -23,7 +23,7 @@ pub(crate) fn run<T: Task>(
     stop: &AtomicBool,
     done: &mut dyn FnMut(T),
 ) -> Result<(), IntegrateError> {
-    // The first leg there is says what structure all have.
+    // The first leg has the structure of all.
     while let Some(mut task) = tasks.next() {
         if let Some(leg) = task.begin() {
             let structure = &leg.system.structure;
@@ -38,7 +38,7 @@ pub(crate) fn run<T: Task>(
 /// A step that is shorter than this part of a period does not tell which guards are near zero at its end.
 const SHORT: f64 = 1e-6;
 
-/// What a lane does in the coming step, if that is more than to go on.
+/// Events of a lane in the coming step.
 #[derive(Clone, Copy, Default)]
 struct Plan {
     firing: Option<Firing>,

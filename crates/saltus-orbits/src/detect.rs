@@ -5,8 +5,8 @@ use crate::events;
 use crate::orbit::{Multiplier, Orbit};
 use crate::special::SpecialKind;
 
-/// What may differ between two points of a branch, the more telling first: at a grazing multipliers may
-/// jump, and where a branch meets another one from the side it turns too.
+/// Possible changes between two points of a branch, the more telling first: at a grazing multipliers may
+/// jump, and a branch that meets another one from the side turns too.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Test {
     Events,
@@ -31,7 +31,7 @@ pub(crate) fn pair_passes(a: &Point, b: &Point) -> bool {
     gains(a, b) || gains(b, a)
 }
 
-/// What changes between two points; pairs of multipliers are looked at if `pairs`.
+/// Changes between two points; pairs of multipliers are looked at if `pairs`.
 pub(crate) fn changes(a: &Point, b: &Point, pairs: bool) -> Vec<Test> {
     let flips = |a: &Point| real(&a.orbit).filter(|mu| *mu < -1.0).count();
     let events = !events::same(&a.orbit.switches(), &b.orbit.switches());
@@ -64,7 +64,7 @@ impl Test {
         }
     }
 
-    /// What was found between two points that are next to each other, the first of which is at hand.
+    /// Kind of the special point between two points that are next to each other, the first of which is at hand.
     pub(crate) fn kind(self, a: &Orbit, b: &Orbit) -> Option<SpecialKind> {
         Some(match self {
             Self::BranchPoint => SpecialKind::BranchPoint,

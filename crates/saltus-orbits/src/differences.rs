@@ -1,8 +1,8 @@
 //! Derivatives of an image by a parameter: differences, which look closer where the map has a corner.
 //!
-//! At a grazing the map changes from one piece to another, and to the side with an impact it is a square root.
-//! Differences that reach across a corner say nothing; those that stay on the piece of the image, and no longer
-//! change when they reach less far, do.
+//! A map with a grazing changes there from one piece to another, and to the side with an impact it is a square root.
+//! Differences that reach across a corner are worth nothing. Those that stay on the piece of the image, and no
+//! longer change when they reach less far, are its slope.
 
 use crate::events::switches;
 use crate::linear::{minus, norm, plus, scaled, size};
@@ -12,12 +12,12 @@ use crate::map::{Family, Image, Lost, Shot};
 /// differences is smallest.
 pub(crate) const DIFFERENCE: f64 = 6e-6;
 
-/// Slopes that differ by more than this part, or by this where they are small, tell that there may be a corner:
+/// Slopes that differ by more than this part, or by this where they are small, point to a corner:
 /// in a smooth map they differ by some 1e-5, and less than this does not hinder Newton's method.
 const CORNER: f64 = 1e-2;
 
-/// Each closer look reaches so much less far, and so many looks are taken: the last is at 6e-12, for slopes of
-/// 1e5, of which rounding leaves four digits.
+/// Factor between the reaches of a look and the next closer one, and the number of looks. The last is at 6e-12,
+/// for slopes of 1e5, of which rounding leaves four digits.
 const CLOSER: f64 = 1.0 / 32.0;
 const LOOKS: i32 = 5;
 
@@ -60,7 +60,7 @@ pub(crate) fn slope<F: Family + ?Sized>(
     Ok(closer.flatten().unwrap_or(plain))
 }
 
-/// The slope on the piece of the map that an image lies on, if it can be told.
+/// The slope on the piece of the map that an image lies on, if differences show it.
 fn beside_corner<F: Family + ?Sized>(
     family: &F,
     shot: &Shot<'_>,
@@ -82,7 +82,7 @@ fn beside_corner<F: Family + ?Sized>(
     let here = switches(&image.crossings);
     let slope = |(side, parameters): (&Result<Image, Lost>, &Vec<f64>)| {
         let side = side.as_ref().ok()?;
-        // What is left of a small part after rounding.
+        // The rest of a small part after rounding.
         let part = (parameters[free.index] - shot.parameters[free.index]) / free.unit;
         let slope = scaled(&minus(&side.place.x, &image.place.x), 1.0 / part);
         (switches(&side.crossings) == here && norm(&slope).is_finite()).then_some(slope)

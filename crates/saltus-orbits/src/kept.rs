@@ -24,7 +24,7 @@ pub(crate) struct Kept {
 }
 
 impl Kept {
-    /// With its value at `x`.
+    /// The quantity with its value at `x`.
     fn at(a: Vec<f64>, b: Matrix, x: &[f64]) -> Self {
         let kept = Self { a, b, value: 0.0 };
         Self {
@@ -44,13 +44,13 @@ impl Kept {
         plus(&self.a, 1.0, &times(&self.b, x))
     }
 
-    /// Whether its value is that at `x`, for all that matters.
+    /// Whether its value is that at `x`, to rounding and the errors of an orbit.
     pub(crate) fn holds(&self, x: &[f64]) -> bool {
         let scale = (norm(&self.a) + norm(&times(&self.b, x))) * norm(x);
         self.missing(x).abs() <= HELD * scale.max(self.value.abs())
     }
 
-    /// What its value has more than that at `x`.
+    /// Its value less that at `x`.
     pub(crate) fn missing(&self, x: &[f64]) -> f64 {
         self.value - dot(&self.a, x) - 0.5 * dot(x, &times(&self.b, x))
     }

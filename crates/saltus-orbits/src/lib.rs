@@ -1,4 +1,4 @@
-//! What a map that depends on parameters can do in the long run: periodic orbits with their Floquet
+//! Long-term behaviour of maps that depend on parameters: periodic orbits with their Floquet
 //! multipliers, branches of them with their bifurcations, Lyapunov exponents.
 //!
 //! Everything here asks a [`Family`] of maps; nothing knows whether that is a forced flow seen once per

@@ -117,12 +117,17 @@ pub(crate) fn null_space(a: &Matrix, count: usize) -> Option<Vec<Vec<f64>>> {
     Some((cols - count..cols).map(column).collect())
 }
 
-/// det A; not a number if A is not finite.
-pub(crate) fn determinant(a: &Matrix) -> f64 {
-    if is_finite(a) {
-        dense(a).determinant()
-    } else {
-        f64::NAN
+impl Matrix {
+    /// The determinant; NaN if an entry is not finite.
+    ///
+    /// # Panics
+    /// If the matrix is not square.
+    pub fn determinant(&self) -> f64 {
+        if is_finite(self) {
+            dense(self).determinant()
+        } else {
+            f64::NAN
+        }
     }
 }
 

@@ -44,7 +44,7 @@ impl Matrix {
 
     /// The matrix with rows and columns exchanged.
     #[must_use]
-    pub fn transposed(&self) -> Self {
+    pub(crate) fn transposed(&self) -> Self {
         Self::from_fn(self.ncols, self.nrows, |row, col| self[(col, row)])
     }
 

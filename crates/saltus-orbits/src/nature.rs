@@ -1,10 +1,10 @@
-//! What a motion is, from its exponents and from whether it recurs; and how sure that is.
+//! The nature of a motion, from its exponents and from whether it recurs; and the confidence of that.
 //!
 //! The name rests on tests, not on an exponent being above some number:
 //!
 //! - **chaotic**: it does not recur; the largest exponent is positive by Student's t, one-sided, with the
-//!   confidence asked for; and over the record a small deviation grows by more than 1/eps. What leaves an
-//!   unstable cycle or torus does not show that: it starts a rounding error away at the nearest and has grown
+//!   confidence asked for; and over the record a small deviation grows by more than 1/eps. A motion that
+//!   leaves an unstable cycle or torus does not show that: it starts a rounding error away at the nearest and has grown
 //!   by 1/eps when it is somewhere else. On a torus, growth is bounded; near a bifurcation it is slower than
 //!   any exponential. A chaotic transient that ends within the record makes batches unlike their neighbours,
 //!   and the error large.
@@ -21,7 +21,7 @@
 //! tends to zero from below, and its averages creep instead of converging.
 //!
 //! No finite record excludes chaos that ends after it. In narrow windows of the logistic map such transients
-//! last for thousands of iterates, so whoever stops early should discard as many before.
+//! last for thousands of iterates, so a run that stops early should discard as many before.
 //!
 //! A test that is repeated as the record grows errs more often than a single one, at most by the number of
 //! repetitions; to double the record before each keeps that number, and the work, small.
@@ -31,33 +31,33 @@ use crate::{Exponent, Spectrum, Weighted};
 /// Whether a motion comes back, judged by its places.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Recurrence {
-    /// To where it was `period` iterates before, and `period` is the shortest such.
+    /// It comes back to its place `period` iterates before, and `period` is the shortest such.
     Recurs {
         /// Iterates.
         period: u32,
-        /// Bound on what is still to come of the transient, in the units of [`Criteria::rest`].
+        /// Bound on the rest of the transient, in the units of [`Criteria::rest`].
         rest: f64,
     },
-    /// Visibly coming closer to a cycle, or leaving one.
+    /// It visibly comes closer to a cycle, or leaves one.
     Drifting,
     /// Neither.
     Open,
 }
 
-/// What a motion is in the long run.
+/// The kind of a motion in the long run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Nature {
-    /// On a stable cycle of so many iterates.
+    /// A stable cycle, with its number of iterates.
     Periodic(u32),
-    /// On a torus.
+    /// A torus.
     QuasiPeriodic,
     /// Small deviations grow, again and again.
     Chaotic,
-    /// Not known, and why.
+    /// Not known, with the reason.
     Undecided(Doubt),
 }
 
-/// Why the nature of a motion is not known.
+/// Reason why the nature of a motion is not known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Doubt {
     /// Too few iterates for any error, or the sign of the exponent drowns in it.
@@ -75,7 +75,7 @@ pub enum Doubt {
 /// A nature and how sure it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Verdict {
-    /// What the motion is.
+    /// Kind of the motion.
     pub nature: Nature,
     /// Probability that the test behind the name did not come out by chance; where the nature is undecided,
     /// that the largest exponent has the sign it shows.
@@ -84,7 +84,7 @@ pub struct Verdict {
     pub exponent: Exponent,
 }
 
-/// How sure is sure.
+/// Thresholds of the tests.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Criteria {
     /// Confidence of each test. 0.999: of a thousand pixels of a map, one may be wrong.
@@ -92,7 +92,7 @@ pub struct Criteria {
     /// ln of the growth that a motion leaving an unstable one can show. ln(1/eps) = 36.04.
     pub growth: f64,
     /// Error of the growth that no record shows (1 / iterate): that of the derivatives. 1e-12 for formulas; for a
-    /// flow, what its tolerance gives.
+    /// flow it follows from its tolerance.
     pub noise: f64,
     /// Largest rest of a transient with which a cycle is called one. 1e-3, in the units of the samples.
     pub rest: f64,
@@ -138,7 +138,7 @@ struct Evidence<'a> {
     exponent: Exponent,
     /// Probability that the exponent is positive.
     positive: f64,
-    /// That the weighted averages come out as they do by chance.
+    /// Probability that the weighted averages come out as they do by chance.
     chance: f64,
     /// ln of that over the record.
     growth: f64,

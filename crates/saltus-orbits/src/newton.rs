@@ -1,16 +1,16 @@
-//! How orbits are solved for, and why there may be none.
+//! Settings of Newton's method, and the reasons why it may find no orbit.
 
 use crate::map::{Lost, Place};
 
-/// How orbits are solved for.
+/// Settings of Newton's method for orbits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NewtonOptions {
-    /// Largest component of P(x_i) - x_(i+1), relative to the largest state or 1. The default is what flows
-    /// solved to 1e-13 can reach.
+    /// Largest component of P(x_i) - x_(i+1), relative to the largest state or 1. The default is the least that
+    /// flows solved to 1e-13 can reach.
     pub tolerance: f64,
     /// Newton steps at most; from a good guess it takes 3 to 5.
     pub iterations: usize,
-    /// Into how many pieces an orbit is cut, from 1 to its period. `None` cuts at every iterate, which is the
+    /// Number of pieces that an orbit is cut into, from 1 to its period. `None` cuts at every iterate, which is the
     /// least sensitive and lets all shots run side by side.
     pub segments: Option<usize>,
 }
@@ -25,7 +25,7 @@ impl Default for NewtonOptions {
     }
 }
 
-/// Why there is no orbit. Each says how far Newton's method came.
+/// Reason why there is no orbit, with the place that Newton's method came to.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotFound {
@@ -76,7 +76,7 @@ pub enum NotFound {
     /// The map has no image there.
     #[error("Newton's method left the map at a residual of {residual:.1e}: {reason}")]
     Lost {
-        /// What the map said.
+        /// The map's reason.
         reason: Lost,
         /// Largest component of P(x_i) - x_(i+1); infinite at the start.
         residual: f64,

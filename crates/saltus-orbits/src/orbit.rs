@@ -12,7 +12,7 @@ use crate::shooting::{Guess, Pass, Shooting};
 /// at the default tolerance leaves places uncertain by less, except within 1e-13 of a period doubling.
 const SAME: f64 = 1e-7;
 
-/// A multiplier so near to 1 may be that of a quantity that is kept: where its equations are singular, Newton's method
+/// A multiplier so near to 1 may be that of a kept quantity: there the equations are singular, and Newton's method
 /// comes to an orbit with half of the digits only.
 const NEAR_ONE: f64 = 1e-3;
 
@@ -23,7 +23,7 @@ pub struct Multiplier {
     pub re: f64,
     /// Imaginary part.
     pub im: f64,
-    /// How far it may be off: the accuracy of the derivative ([`NewtonOptions::tolerance`] of each iterate) times the
+    /// Bound on its error: the accuracy of the derivative ([`NewtonOptions::tolerance`] of each iterate) times the
     /// condition of the eigenvalue.
     pub error: f64,
 }
@@ -34,7 +34,7 @@ impl Multiplier {
         self.re.hypot(self.im)
     }
 
-    /// How far from 1 it is.
+    /// Its distance from 1.
     fn off_one(self) -> f64 {
         (self.re - 1.0).hypot(self.im)
     }
@@ -52,8 +52,8 @@ pub enum Stability {
     Stable,
     /// Some lie outside.
     Unstable,
-    /// None lies outside, and some are so near to the circle that rounding says on which side: at a bifurcation, or
-    /// where a quantity is conserved, which makes a multiplier 1.
+    /// None lies outside, and some are so near to the circle that rounding decides on which side: at a bifurcation, or
+    /// with a conserved quantity, which makes a multiplier 1.
     Neutral,
 }
 
@@ -90,7 +90,7 @@ pub struct Orbit {
     pub monodromy: Matrix,
     /// Switches on the way from each place to the next, in time order.
     pub crossings: Vec<Vec<Crossing>>,
-    /// Where a guard came to an extremum without a switch on the way from each place to the next.
+    /// Extrema of guards without a switch on the way from each place to the next.
     pub touches: Vec<Vec<Touch>>,
     /// Largest component of P(x_i) - x_(i+1).
     pub residual: f64,
@@ -104,7 +104,7 @@ impl Orbit {
         self.places.len()
     }
 
-    /// How many multipliers lie outside the unit circle, by more than their errors.
+    /// Number of multipliers outside the unit circle, by more than their errors.
     pub fn outside(&self) -> usize {
         let grows = |m: &&Multiplier| m.modulus() - 1.0 > m.error;
         self.multipliers.iter().filter(grows).count()
@@ -210,7 +210,7 @@ impl Orbit {
 ///
 /// Newton's method with multiple shooting; a step is cut as long as it makes the residual grow. The
 /// orbit has the shortest period: a start of four places that leads to a 2-cycle gives two. The first
-/// place of the orbit is the one near `start[0]`. Where orbits lie in a family, since the map keeps a quantity, it is
+/// place of the orbit is the one near `start[0]`. If orbits lie in a family, since the map keeps a quantity, it is
 /// the one with the value of the start: exactly if the quantity is quadratic, else to first order in the distance
 /// between the two. Modes of a start that contradict the motion are replaced.
 ///
@@ -244,7 +244,7 @@ pub fn find_orbit<F: Family + ?Sized>(
         Err(NotFound::Singular { places, .. }) => places,
         _ => return first,
     };
-    // Of a family the member is meant that has what is kept from the start.
+    // The member of a family that is meant has the kept value of the start.
     let linear = || {
         let slope = plain(family, options, &[])
             .pass(&guess(places))
@@ -300,7 +300,7 @@ pub(crate) fn check<F: Family + ?Sized>(family: &F, start: &[Place]) -> Result<(
     }
 }
 
-/// After how many iterates the places repeat.
+/// Number of iterates after which the places repeat.
 pub(crate) fn shortest_period(places: &[Place]) -> usize {
     let n = places.len();
     let scale = places.iter().map(|p| size(&p.x)).fold(1.0, f64::max);

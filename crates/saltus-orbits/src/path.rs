@@ -124,7 +124,7 @@ impl<'a, F: Family + ?Sized> Path<'a, F> {
             stable: orbit.stable(),
             outside: orbit.outside(),
             spread: pass.spread(&tangent).ok_or_else(singular)?,
-            side: linear::determinant(&bordered),
+            side: bordered.determinant(),
             tangent,
             orbit,
         })

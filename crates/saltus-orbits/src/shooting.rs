@@ -8,7 +8,7 @@
 //! d_(i+1) = A_i d_i + C_i dp + g_i,
 //! ```
 //!
-//! so one pass around the orbit leaves n equations for d_1 and dp, whatever the number of segments. Inside
+//! so one pass around the orbit leaves n equations for d_1 and dp, for any number of segments. Inside
 //! a segment the gaps are zero. Shots of all segments, and those for C by differences, are asked together.
 
 use crate::differences::{DIFFERENCE, Free, moved, slope};
@@ -19,7 +19,7 @@ use crate::map::{Family, Image, Lost, Place, Shot};
 use crate::matrix::Matrix;
 use crate::newton::{NewtonOptions, NotFound};
 
-/// A step is cut in halves at most so often.
+/// Halvings of a step at most.
 const HALVINGS: usize = 6;
 
 /// A residual that no longer falls counts as rounding below this multiple of the tolerance.
@@ -62,9 +62,9 @@ impl Guess {
 /// A change of an orbit and of the free parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Change {
-    /// Of each place.
+    /// Change of each place.
     pub(crate) x: Vec<Vec<f64>>,
-    /// Of each free parameter, in its unit.
+    /// Change of each free parameter, in its unit.
     pub(crate) free: Vec<f64>,
 }
 
@@ -120,7 +120,7 @@ impl Pass {
         }))
     }
 
-    /// What a change of the first place and of the free parameters, side by side, does to all places;
+    /// Change of all places by that of the first one and of the free parameters, side by side;
     /// `gaps` times the gaps are added on the way. The last change is that of the place after the last.
     fn carried(&self, first: &[f64], gaps: f64) -> Option<(Change, Vec<f64>)> {
         let (start, free) = first.split_at(self.places[0].x.len());
@@ -141,7 +141,7 @@ impl Pass {
         Some(self.carried(tangent, 0.0)?.0)
     }
 
-    /// By how much errors of single derivatives, relative to their sizes, may change that of the whole way round.
+    /// Factor by which errors of single derivatives, relative to their sizes, may change that of the whole way round.
     pub(crate) fn growth(&self) -> f64 {
         let n = self.places[0].x.len();
         let (mut growth, mut before) = (0.0, Matrix::identity(n));
@@ -392,7 +392,7 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
     }
 }
 
-/// Nothing beyond a pass.
+/// The failure of a step from a pass, which leads out of the map.
 fn lost(pass: &Pass) -> impl Fn(Lost) -> NotFound {
     |reason| NotFound::Lost {
         reason,

@@ -2,7 +2,7 @@
 
 use crate::orbit::Orbit;
 
-/// What happens at a special point.
+/// Kind of a special point.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum SpecialKind {
@@ -51,17 +51,17 @@ pub(crate) const JUMP: &str = "stability changes here without a multiplier on th
 pub struct Special {
     /// Short name and number, such as `PD1`; the numbers follow the order in which points were found.
     pub label: String,
-    /// What it is.
+    /// Its kind.
     pub kind: SpecialKind,
     /// Value of the parameter.
     pub parameter: f64,
-    /// The orbit there, or next to it where there is none: the last one before a grazing.
+    /// The orbit there, or next to it if there is none: the last one before a grazing.
     pub orbit: Orbit,
-    /// The point of the branch before it, or the one behind it where there is none before.
+    /// The point of the branch before it, or the one behind it if there is none before.
     pub near: usize,
     /// Number of multipliers outside the unit circle before and after.
     pub outside: [usize; 2],
-    /// What else is to be said, in words.
+    /// A remark, in words.
     pub remark: Option<String>,
     /// Unit tangent of the branch there: first place, then the parameter.
     pub(crate) tangent: Vec<f64>,

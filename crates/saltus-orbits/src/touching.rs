@@ -1,4 +1,4 @@
-//! Where a guard that is only touched on one side of a special point comes to zero.
+//! Location of a grazing: a guard that is only touched on one side of it comes to zero.
 
 use crate::continuation::Point;
 use crate::locate::{Aim, NARROW, ROUNDS};
@@ -6,9 +6,9 @@ use crate::path::Path;
 use crate::{Family, Orbit, events};
 
 impl<F: Family + ?Sized> Path<'_, F> {
-    /// Where between two points the guard that tells their switches apart comes to zero: its value on the
-    /// side without the switches is extrapolated, alternately a little further and less far, so that
-    /// the bracket shrinks from both sides. Every third round bisects, whatever the values say.
+    /// Part of the way between two points at which the guard that makes their switches differ comes to zero: its value on
+    /// the side without the switches is extrapolated, alternately a little further and less far, so that
+    /// the bracket shrinks from both sides. Every third round bisects in any case.
     pub(crate) fn touching(
         &self,
         a: &Point,
@@ -34,8 +34,8 @@ impl<F: Family + ?Sized> Path<'_, F> {
         (part > 0.0 && part < 1.0).then_some(part)
     }
 
-    /// Where no orbits are found between two points, moves the one without the additional switches along its
-    /// tangent to where its touch comes to zero.
+    /// Moves the point without the additional switches along its tangent to where its touch comes to zero, if no orbits
+    /// are found between two points.
     pub(crate) fn approach(&self, a: &mut Point, b: &mut Point) {
         let [first, second] = [&a.orbit, &b.orbit].map(Orbit::switches);
         let units = events::units_apart(&first, &second);

@@ -1,4 +1,4 @@
-//! One walk along a branch: predict along the tangent, correct, look what happened on the way, choose the
+//! One walk along a branch: predict along the tangent, correct, look for special points on the way, choose the
 //! step.
 
 use crate::continuation::{Branch, End, Point};
@@ -9,7 +9,7 @@ use crate::path::Path;
 use crate::special::{Special, SpecialKind};
 use crate::{Family, Multiplier, events};
 
-/// The corrector stays within so many steps of the prediction, or it may have found another branch.
+/// The corrector stays within this many steps of the prediction, or it may have found another branch.
 const NEAR: f64 = 2.0;
 
 /// Newton steps that let the next step of the branch grow, and that make it shrink.
@@ -25,7 +25,7 @@ const AT_TOUCH: f64 = 1e-9;
 /// The part of the way to a touch that one step covers.
 const APPROACH: f64 = 0.95;
 
-/// On the first step of a branch from its birth the critical multiplier moves by less than this.
+/// The critical multiplier moves by less than this on the first step of a branch from its birth.
 const BORN: f64 = 0.3;
 
 /// Points before a branch may close.
@@ -149,8 +149,8 @@ impl<F: Family + ?Sized> Path<'_, F> {
         Ok((point, specials))
     }
 
-    /// Beyond an obstacle that stays with the smallest step, if it is the sampling instant or a grazing: the next
-    /// point, the step from there, and what lies in between.
+    /// Passes an obstacle that stays with the smallest step, if it is the sampling instant or a grazing: the next
+    /// point, the step from there, and the special point in between.
     fn further(
         &self,
         points: &[Point],
@@ -163,7 +163,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
         if let Some(point) = self.across_instant(last) {
             return Ok((point, self.options.initial, None));
         }
-        // From the side with the switches no touch tells that a grazing is near.
+        // No touch announces a grazing from the side with the switches.
         let beyond = self.beyond(last, 0.0).filter(|_| points.len() > 1);
         if let Some(point) = beyond
             && let Some(special) = self.gap(last, &point, points.len() - 1)
@@ -214,7 +214,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
             guess.parameters[self.free[0].index] = edge;
             point = self.solve(&guess, &self.upwards(), &point.tangent)?;
         }
-        // At a kink, and at a birth close to one, the corrector finds the orbit of half the period as easily.
+        // The corrector finds the orbit of half the period as easily at a kink, and at a birth close to one.
         if shortest_period(&point.orbit.places) < point.orbit.period() {
             return Err(End::StepTooSmall);
         }
@@ -223,7 +223,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
                 return Err(End::StepTooSmall);
             }
         } else if dot(&point.tangent, &self.apart(last, &point)) < 0.0 {
-            // Where the map has a kink so has the branch, and its old direction says little.
+            // A kink of the map is one of the branch, and the old direction is worth little there.
             point = point.reversed();
         }
         Ok(point)
@@ -242,7 +242,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
         (factor * step).clamp(self.options.smallest, self.options.largest)
     }
 
-    /// What to do about an obstacle.
+    /// The response to an obstacle.
     fn shorter(&self, points: &[Point], step: f64, obstacle: &End) -> Shorter {
         match self.to_touch(points) {
             _ if *obstacle == End::Interrupted => Shorter::End,
@@ -287,14 +287,14 @@ impl<F: Family + ?Sized> Path<'_, F> {
 
 enum Shorter {
     Step(f64),
-    /// Of a unit, so far ahead.
+    /// A unit grazes at this distance ahead.
     Grazing(usize, f64),
     End,
 }
 
 /// Angle between two unit vectors.
 fn angle(a: &[f64], b: &[f64]) -> f64 {
-    // From the chord: the cosine says nothing about small angles.
+    // The chord is used since the cosine hardly changes at small angles.
     2.0 * (norm(&minus(a, b)) / 2.0).min(1.0).asin()
 }
 

@@ -14,7 +14,7 @@ pub(super) fn term<A: Arith, const N: usize>(
     arith.mul_add(arith.load(&stream[i]), x, sum)
 }
 
-/// As `cauchy::squares_and_products`, for W neighbours from slot Y and T on: `past` are the orders
+/// Sums of `cauchy::squares_and_products` for W neighbours from slot Y and T on: `past` are the orders
 /// below the one in hand.
 #[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn squares_and_products<
@@ -65,7 +65,7 @@ pub(super) fn squares_and_products<
     (square, product)
 }
 
-/// As `cauchy::products`, for W neighbours from slot F and from slot G on.
+/// Sums of `cauchy::products` for W neighbours from slot F and from slot G on.
 #[cfg_attr(not(unoptimised), inline(always))]
 pub(super) fn products<A: Arith, const S: usize, const W: usize, const F: usize, const G: usize>(
     arith: A,

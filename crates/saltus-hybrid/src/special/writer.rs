@@ -4,7 +4,7 @@ use std::fmt::{Result, Write};
 
 use crate::structure::{Cubic, Group, Op, Place, Rate, Step, Structure};
 
-/// A number that tells programs apart: 64-bit FNV-1a of all that the code depends on.
+/// The key of a program: 64-bit FNV-1a of all that the code depends on.
 pub(super) fn key(structure: &Structure) -> u64 {
     let text = format!(
         "{:?}",
@@ -51,7 +51,7 @@ impl Writer<'_> {
         self.guards()
     }
 
-    /// What is known of the program, and the loop over the orders.
+    /// Writes the constants of the program, and the loop over the orders.
     fn head(&mut self) -> Result {
         let s = self.structure;
         write!(
@@ -96,7 +96,7 @@ pub(super) fn expand<A: Arith>(a: A, c: &[A::Cell], kept: &mut [A::Cell]) {{
         )
     }
 
-    /// One order of all nodes, and the next one of the states.
+    /// Writes one order of all nodes, and the next one of the states.
     fn order(&mut self) -> Result {
         let s = self.structure;
         self.out.write_str(
@@ -124,7 +124,7 @@ fn order<A: Arith, const FIRST: bool>(
         self.out.write_str("}\n")
     }
 
-    /// The last order, of the guards alone.
+    /// Writes the last order, of the guards alone.
     fn guards(&mut self) -> Result {
         self.out.write_str(
             r"

@@ -66,8 +66,7 @@ fn characteristic_values_have_multipliers_of_one() {
             let (trace, sign) = (m[(0, 0)] + m[(1, 1)], if odd { -1.0 } else { 1.0 });
             // The multiplier is double, so it is known to the root of this only.
             assert!((trace - 2.0 * sign).abs() < 1e-10, "{a} {trace}");
-            let determinant = m[(0, 0)] * m[(1, 1)] - m[(0, 1)] * m[(1, 0)];
-            assert!((determinant - 1.0).abs() < 1e-11);
+            assert!((m.determinant() - 1.0).abs() < 1e-11);
         }
     }
 }
