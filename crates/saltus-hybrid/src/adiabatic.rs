@@ -14,34 +14,10 @@
 //! as little as the terms that it omits.
 
 use crate::arith::Arith;
-use crate::series::block_rows;
-
-/// Nodes x_a = sum over n >= 1 of (R_n (D^2 + damping D)^n q)_a.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Adiabatic {
-    /// First slot of x.
-    pub(crate) out: usize,
-    pub(crate) count: usize,
-    /// First slot of q.
-    pub(crate) source: usize,
-    pub(crate) sources: usize,
-    /// Place of the damping in the stream.
-    pub(crate) damping: usize,
-    /// Places of R_1, R_2, ... in the stream, rows by fours.
-    pub(crate) responses: Vec<usize>,
-}
+use crate::rows::block_rows;
+use crate::structure::Adiabatic;
 
 impl Adiabatic {
-    /// Terms of the series, and rounds after the first.
-    pub(crate) fn corrections(&self) -> usize {
-        self.responses.len()
-    }
-
-    /// Cells that `update` works in, for a series of this order.
-    pub(crate) fn scratch(&self, order: usize) -> usize {
-        2 * (order + 1) * self.sources
-    }
-
     /// Sets x to zero in all orders: the first round.
     #[inline(always)]
     pub(crate) fn clear<C: Copy + Default>(&self, kept: &mut [C], stride: usize) {

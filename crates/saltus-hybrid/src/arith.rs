@@ -1,20 +1,20 @@
-//! One number or eight lanes: the arithmetic that the series code is written in.
+//! Arithmetic on one number or on eight lanes, in which the series code is written.
 
 use fearless_simd::{Simd, SimdBase, SimdFloat, f64x8};
 
 /// Lanes of one vector register.
 pub(crate) const LANES: usize = 8;
 
-/// Eight lanes in memory, aligned as the widest register wants them.
+/// Eight lanes in memory, aligned for the widest register.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C, align(64))]
 pub(crate) struct Pack(pub(crate) [f64; LANES]);
 
 /// Arithmetic on values `V` kept in memory as `Cell`.
 pub(crate) trait Arith: Copy {
-    /// As stored.
+    /// A number as stored.
     type Cell: Copy + Default;
-    /// As computed with.
+    /// A number as computed with.
     type V: Copy;
     /// Whether straight-line code pays: eight lanes in one or two registers.
     const WIDE: bool;

@@ -1,16 +1,18 @@
-//! Which switch comes next: the rules of events, shared by all steppers.
+//! Rules of events, shared by all steppers: they tell which switch comes next.
 //!
 //! A step is half open, (t0, t1]. At its start each guard in force is on its right side, zero, or beyond.
-//! Zero is what rounding cannot tell from it ([`Jets`]); the guard is then inactive until it leaves zero,
-//! and its first nonzero derivative says to which side. A guard that falls from zero, or lies beyond,
-//! fires at once, so that nobody falls for ever because a root sat at the start of a step. One that is
-//! beyond and does not go further is held instead where firing would lead to no mode that lasts: it is
+//! It is zero if rounding cannot tell it from zero ([`Jets`]), and then inactive until it leaves zero,
+//! and the sign of its first nonzero derivative is the side it leaves to. A guard that falls from zero, or lies
+//! beyond, fires at once: no switch is missed because a root sits at the start of a step. One that is
+//! beyond and does not go further is held instead if firing would lead to no mode that lasts. It is
 //! armed again when it is back on its right side, and fires if it turns away before.
 
-use crate::compile::{Structure, Watch};
+use crate::evaluator::Evaluator;
 use crate::jets::{Jets, Side};
 use crate::polynomial::{BernsteinTable, MAX_DEGREE, first_descent};
-use crate::system::{Evaluator, Mode, System};
+use crate::program::Mode;
+use crate::structure::{Structure, Watch};
+use crate::system::System;
 
 /// A coefficient is worth a look at its terms if it is below this part of the largest in the step.
 const SUSPICIOUS: f64 = 1e-9;
@@ -18,7 +20,7 @@ const SUSPICIOUS: f64 = 1e-9;
 /// A guard counts as having left zero when it exceeds this part of its own Taylor terms.
 const LEFT_ZERO: f64 = 1e-12;
 
-/// What a stepper must know of one trajectory to watch its guards.
+/// Modes and guards of one trajectory, as a stepper watches them.
 #[derive(Clone, Debug)]
 pub(crate) struct Guarded {
     /// Mode of each unit.
@@ -40,19 +42,19 @@ pub(crate) struct Firing {
     pub(crate) cause: Cause,
 }
 
-/// Why a transition fires: what its neighbours' switch follows.
+/// Cause of a switch: it decides when neighbours of the trajectory switch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Cause {
     /// Its guard falls through zero.
     Crossing,
-    /// Its guard falls from a zero of higher multiplicity, or was beyond already: it fires with whatever
+    /// Its guard falls from a zero of higher multiplicity, or was beyond already: it fires with the switch that
     /// brought it there.
     AtOnce,
     /// Its guard, held beyond zero, turned away.
     Turning,
 }
 
-/// What happens in a step.
+/// Events of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Coming {
     /// The switch that ends it.
@@ -74,7 +76,7 @@ pub(crate) struct Touches {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Spot {
     pub(crate) x: Vec<f64>,
-    /// How large each state has been on the way.
+    /// Largest size of each state on the way.
     pub(crate) sizes: Vec<f64>,
 }
 
@@ -89,7 +91,7 @@ pub(crate) struct Judge {
 }
 
 impl Judge {
-    /// For a system, its tangents aside, and a solution of this relative error.
+    /// A judge for a system, its tangents aside, and a solution of this relative error.
     pub(crate) fn new(system: &System, close: f64) -> Self {
         let base = system.base();
         Self {
@@ -123,7 +125,7 @@ impl Judge {
         }
     }
 
-    /// Whether firing leads, by whatever fires with it, to modes that last.
+    /// Whether firing leads, with the switches that follow at once, to modes that last.
     fn settles(&mut self, guarded: &Guarded, spot: &Spot, first: Firing) -> bool {
         let structure = std::sync::Arc::clone(&self.base.structure);
         let modes: usize = structure.units.iter().map(Vec::len).sum();
@@ -147,7 +149,7 @@ impl Judge {
     }
 }
 
-/// What a guard does just after a point.
+/// Behaviour of a guard just after a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Course {
     /// It is on its right side, or leaves a zero of this multiplicity to it.
@@ -216,7 +218,7 @@ impl Guarded {
     }
 
     /// The earliest switch in this step. `poly(guard, out)` writes the guard's power coefficients in
-    /// the step fraction and says whether it could change sign at all; `spot` is the step's start.
+    /// the step fraction and returns whether it could change sign at all; `spot` is the step's start.
     pub(crate) fn next(
         &mut self,
         structure: &Structure,
@@ -284,7 +286,7 @@ impl Guarded {
         None
     }
 
-    /// Multiplicity of the zero that a guard leaves to its right side, if its polynomial tells without doubt.
+    /// Multiplicity of the zero that a guard leaves to its right side, if its polynomial leaves no doubt.
     fn plain_course(&self, guard: usize, power: &[f64]) -> Option<u8> {
         let size = power.iter().fold(0.0, |m: f64, a| m.max(a.abs()));
         let zeros = self.zero[guard];
@@ -298,7 +300,7 @@ impl Guarded {
         Course::Right(zeros)
     }
 
-    /// What a transition does, by the side that its guard is on.
+    /// Behaviour of a guard by the side it is on.
     fn course(
         &mut self,
         unit: usize,

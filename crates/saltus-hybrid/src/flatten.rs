@@ -1,10 +1,9 @@
-//! A builder's operations with flat indices, and where their results are kept: what the program is
-//! assembled from.
+//! The operations of a program with flat indices, and the slots in which their results are kept.
 
-use crate::compile::Place;
-use crate::system::{BuildError, Node, RawOp};
+use crate::program::{BuildError, Node, Operation};
+use crate::structure::Place;
 
-/// Which nodes keep all their orders, and where: the factors of products side by side, as the products
+/// Slots of the nodes that keep all their orders: factors of products side by side, as the products
 /// are listed, then states and guards that are no factors.
 pub(crate) struct Slots {
     pub(crate) count: usize,
@@ -36,13 +35,13 @@ impl Slots {
                     slots.add(first);
                     slots.add(second);
                 }
-                Kind::Cubic { y, t, .. } => {
-                    slots.add(y);
-                    slots.add(t);
+                Kind::Cubic(cubic) => {
+                    slots.add(&cubic.y);
+                    slots.add(&cubic.t);
                 }
-                Kind::Adiabatic { x, sources, .. } => {
-                    slots.add(x);
-                    slots.add(sources);
+                Kind::Adiabatic(all) => {
+                    slots.add(&all.x);
+                    slots.add(&all.sources);
                 }
             }
         }
@@ -85,7 +84,7 @@ impl Slots {
         !self.is_read[node] && self.of[node].len() == 1
     }
 
-    /// Where the results of an operation go.
+    /// Place of the results of an operation.
     pub(crate) fn place(&self, op: &FlatOp) -> Place {
         let may = matches!(op.kind, Kind::Linear { .. } | Kind::Matrix { .. });
         let nodes = op.out..op.out + op.count;
@@ -118,29 +117,34 @@ pub(crate) enum Kind {
     },
     Squares(Vec<u16>),
     Products(Vec<u16>, Vec<u16>),
-    Adiabatic {
-        /// Its own nodes.
-        x: Vec<u16>,
-        sources: Vec<u16>,
-        damping: usize,
-        responses: Vec<usize>,
-    },
-    Cubic {
-        y: Vec<u16>,
-        /// Nodes that stand for t; they live in their slots only.
-        t: Vec<u16>,
-        added: Vec<u16>,
-        heads: usize,
-        weights: usize,
-        extra: Vec<(usize, usize, usize)>,
-    },
+    Adiabatic(Followers),
+    Cubic(Gradient),
+}
+
+/// Nodes that follow others adiabatically.
+pub(crate) struct Followers {
+    pub(crate) x: Vec<u16>,
+    pub(crate) sources: Vec<u16>,
+    pub(crate) damping: usize,
+    pub(crate) responses: Vec<usize>,
+}
+
+/// The gradient of a quartic form in squares.
+pub(crate) struct Gradient {
+    pub(crate) y: Vec<u16>,
+    /// Nodes that stand for t; they live in their slots only.
+    pub(crate) t: Vec<u16>,
+    pub(crate) added: Vec<u16>,
+    pub(crate) heads: usize,
+    pub(crate) weights: usize,
+    pub(crate) extra: Vec<(usize, usize, usize)>,
 }
 
 impl Kind {
     /// Nodes at the end of its output that are never in hand.
     pub(crate) fn hidden(&self) -> usize {
         match self {
-            Self::Cubic { t, .. } => t.len(),
+            Self::Cubic(cubic) => cubic.t.len(),
             _ => 0,
         }
     }
@@ -185,27 +189,27 @@ impl Flattener {
             .collect()
     }
 
-    pub(crate) fn push(&mut self, op: &RawOp) -> Result<(), BuildError> {
+    pub(crate) fn push(&mut self, op: &Operation) -> Result<(), BuildError> {
         let kind = match op {
-            RawOp::Linear { constant, terms } => Kind::Linear {
+            Operation::Linear { constant, terms } => Kind::Linear {
                 constant: *constant,
                 terms: self.indices(terms)?,
             },
-            RawOp::Matrix { weights, nodes } => Kind::Matrix {
+            Operation::Matrix { weights, nodes } => Kind::Matrix {
                 weights: *weights,
                 nodes: self.indices(nodes)?,
             },
-            RawOp::Squares(list) => Kind::Squares(self.indices(list)?),
-            RawOp::Products(list) => Kind::Products(
+            Operation::Squares(list) => Kind::Squares(self.indices(list)?),
+            Operation::Products(list) => Kind::Products(
                 self.indices(list.iter().map(|(a, _)| a))?,
                 self.indices(list.iter().map(|(_, b)| b))?,
             ),
-            RawOp::Adiabatic {
+            Operation::Adiabatic {
                 count,
                 sources,
                 damping,
                 responses,
-            } => Kind::Adiabatic {
+            } => Kind::Adiabatic(Followers {
                 x: (self.nodes..self.nodes + count).map(|i| i as u16).collect(),
                 // They come later in the program: their derivatives are those of the last round.
                 sources: sources
@@ -217,8 +221,8 @@ impl Flattener {
                     .collect(),
                 damping: *damping,
                 responses: responses.clone(),
-            },
-            RawOp::Cubic {
+            }),
+            Operation::Cubic {
                 y,
                 added,
                 heads,
@@ -226,14 +230,14 @@ impl Flattener {
                 extra,
             } => {
                 let first = self.nodes + 2 * y.len();
-                Kind::Cubic {
+                Kind::Cubic(Gradient {
                     y: self.indices(y)?,
                     t: (first..first + y.len()).map(|i| i as u16).collect(),
                     added: self.indices(added)?,
                     heads: *heads,
                     weights: *weights,
                     extra: extra.clone(),
-                }
+                })
             }
         };
         let (out, count) = (self.nodes, op.nodes());
@@ -244,12 +248,12 @@ impl Flattener {
         Ok(())
     }
 
-    /// For each operation whether these nodes depend on it.
+    /// Whether these nodes depend on each operation.
     pub(crate) fn needed_by(&self, guards: &[usize]) -> Vec<bool> {
         self.cone(guards).0
     }
 
-    /// Of what a node is made: states, and the ranges of coefficients of its sums; `None` if of everything.
+    /// States that a node depends on, and the ranges of coefficients of its sums; `None` if it depends on derivatives.
     pub(crate) fn made_of(
         &self,
         node: usize,
@@ -262,7 +266,7 @@ impl Flattener {
                     coefficients.push(*constant..=constant + terms.len());
                 }
                 // It depends on derivatives.
-                Kind::Adiabatic { .. } => return None,
+                Kind::Adiabatic(_) => return None,
                 _ => {}
             }
         }
@@ -283,8 +287,8 @@ impl Flattener {
                     Kind::Matrix { nodes, .. } => [nodes, &[]],
                     Kind::Squares(factors) => [factors, &[]],
                     Kind::Products(first, second) => [first, second],
-                    Kind::Cubic { y, added, .. } => [y, added],
-                    Kind::Adiabatic { .. } => [&[], &[]],
+                    Kind::Cubic(cubic) => [&cubic.y, &cubic.added],
+                    Kind::Adiabatic(_) => [&[], &[]],
                 };
                 for &input in inputs.into_iter().flatten() {
                     nodes[input as usize] = true;

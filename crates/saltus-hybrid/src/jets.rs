@@ -1,13 +1,14 @@
-//! Guards at a point, as Taylor coefficients along the solution beside what rounding leaves of them.
+//! Guards at a point: Taylor coefficients along the solution, beside bounds on their rounding.
 //!
-//! The polynomial of a step tells where a guard vanishes within it. It does not tell whether a value of
+//! The polynomial of a step shows where a guard vanishes within it. It does not show whether a value of
 //! 1e-17 at its start is zero: that depends on the size of the terms the value is a difference of. The
 //! same program with the absolute values of all its numbers bounds these terms, in every order
 //! (a running error analysis; Higham, Accuracy and Stability of Numerical Algorithms (2002), section 3.3).
 
 use crate::arith::Scalar;
+use crate::program::Mode;
 use crate::series::{Series, expand};
-use crate::system::{Mode, System};
+use crate::system::System;
 
 /// A coefficient is zero if it is below this part of the terms it is made of: some thousand units of
 /// rounding, for what accumulates on the way to the point.
@@ -16,7 +17,7 @@ const ZERO: f64 = 1e-12;
 /// A state near zero has rounding of its own size along the way, by this part of [`ZERO`].
 const MEMORY: f64 = 1e-3;
 
-/// Highest multiplicity of a zero that is told.
+/// Highest multiplicity of a zero that is noticed.
 const ORDER: usize = 8;
 
 /// A guard just after a point.
@@ -64,7 +65,7 @@ pub(crate) struct Jets {
 }
 
 impl Jets {
-    /// Of the guards of a system without tangents.
+    /// Jets of the guards of a system without tangents.
     pub(crate) fn new(system: &System) -> Self {
         Self {
             system: system.clone(),

@@ -1,18 +1,19 @@
 //! The vector work of one step of eight lanes: series, step length, guard bounds, new state.
 //!
-//! Nothing here knows what runs on the lanes, so it is compiled once for all tasks.
+//! Tasks are unknown here, so that this is compiled once for all of them.
 
 use std::sync::Arc;
 
 use fearless_simd::{Level, Simd, SimdBase, dispatch};
 
 use crate::arith::{Arith, LANES, Pack, Wide};
-use crate::compile::{Structure, Watch};
+
 use crate::event::{Guarded, Spot};
 use crate::polynomial::{BernsteinTable, HEAD};
 use crate::series::{Series, expand};
 use crate::sizes::Sizes;
 use crate::special::Shape;
+use crate::structure::{Structure, Watch};
 use crate::system::System;
 
 /// Eight lanes of numbers and the program they all follow.
@@ -33,7 +34,7 @@ pub(crate) struct Kernel {
     stream: Vec<Pack>,
     series: Series<Pack>,
     sizes: Sizes,
-    /// Of each lane the largest last and last-but-one coefficient, in units of the size of the state or of the
+    /// Largest last and last-but-one coefficient of each lane, in units of the size of the state or of the
     /// largest tangent; NaN if any is not finite.
     tail: [Pack; 2],
     tangent_tail: Option<[Pack; 2]>,
@@ -46,15 +47,15 @@ pub(crate) struct Kernel {
     wary: [bool; LANES],
 }
 
-/// A guard over the coming step, and what matters about it.
+/// Range of a guard over the coming step, and the bounds beyond which a lane needs a look.
 #[derive(Clone, Copy)]
 struct GuardRange {
     low: Pack,
     high: Pack,
     /// A lane needs a look if `low` is not above this (0 if the mode lasts while the guard is
-    /// positive, else minus infinity),
+    /// positive, else minus infinity).
     floor: Pack,
-    /// or `high` not below this.
+    /// The same for `high` and below.
     ceiling: Pack,
 }
 
@@ -93,7 +94,7 @@ impl Kernel {
         }
     }
 
-    /// An idle lane computes with zeros, which disturb nobody.
+    /// Makes a lane idle: it computes with zeros, which disturb no other.
     pub(crate) fn clear(&mut self, slot: usize) {
         self.stream.iter_mut().for_each(|c| c.0[slot] = 0.0);
         let nodes = self.structure.nodes;
@@ -121,7 +122,7 @@ impl Kernel {
         }
     }
 
-    /// Which guards matter to a lane, and whether it needs a look at every step in any case.
+    /// Sets the guards that matter to a lane, and whether it needs a look at every step in any case.
     pub(crate) fn watch(&mut self, slot: usize, guarded: &Guarded, always: bool) {
         for guard in &mut self.guards {
             guard.floor.0[slot] = f64::NEG_INFINITY;
@@ -147,7 +148,8 @@ impl Kernel {
     /// Begins a leg at the state `x`: sizes of its states are not known yet.
     pub(crate) fn begin(&mut self, slot: usize, system: &System, x: &[f64]) {
         self.set_state(slot, x);
-        self.sizes.begin(slot, &system.scales, system.plan.together);
+        self.sizes
+            .begin(slot, &system.scales, system.program.together);
     }
 
     /// Sizes of the states of a lane, and how large they have been.
@@ -205,9 +207,7 @@ impl Kernel {
 
     /// The start of the step of a lane.
     pub(crate) fn spot(&self, slot: usize) -> Spot {
-        let tangents = self.structure.tangents.as_ref();
-        let states = tangents.map_or(self.structure.states, |tangents| tangents.first);
-        let mut x = vec![0.0; states];
+        let mut x = vec![0.0; self.structure.base_states()];
         self.state(slot, &mut x);
         Spot {
             x,
@@ -376,7 +376,7 @@ impl Kernel {
         }
     }
 
-    /// By so many Bernstein coefficients and a bound on the other terms.
+    /// The same by `head` Bernstein coefficients and a bound on the other terms.
     #[inline(always)]
     fn bound_guards_by<S: Simd>(&mut self, arith: Wide<S>, head: usize) {
         let length = arith.load(&self.lengths);

@@ -1,11 +1,11 @@
-//! The bookkeeping of one trajectory, shared by all steppers: time, modes, counters, the task.
+//! Bookkeeping of one trajectory, shared by all steppers: time, modes, counters, the task.
 
-use crate::compile::Watch;
 use crate::event::{Coming, Firing, Guarded, Judge, Spot, Touches};
 use crate::polynomial::BernsteinTable;
-use crate::run::{End, IntegrateError, Leg, Options, Sample, Status, Switch, SwitchKind, Task};
 use crate::saltation;
+use crate::structure::Watch;
 use crate::system::{Point, System};
+use crate::task::{End, IntegrateError, Leg, Options, Sample, Status, Switch, SwitchKind, Task};
 
 /// A trajectory under way.
 pub(crate) struct Lane<T> {
@@ -27,7 +27,7 @@ pub(crate) struct Lane<T> {
     later: Vec<f64>,
     at_once: u32,
     dwell: Vec<Vec<f64>>,
-    /// Since when, within the period, each unit is in its mode.
+    /// Time, within the period, at which each unit entered its mode.
     entered: Vec<f64>,
     /// Steps and switches of this period.
     recent_steps: u32,
@@ -41,12 +41,12 @@ pub(crate) struct Lane<T> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Arrival {
     No,
-    /// With all guards in force clearly on their right sides.
+    /// All guards in force are clearly on their right sides.
     Clear,
     WithGuardsNearZero,
 }
 
-/// What became of a lane after a step.
+/// Fate of a lane after a step.
 pub(crate) enum Next {
     /// It goes on; the state may have been changed.
     Go,
@@ -164,7 +164,7 @@ impl<T: Task> Lane<T> {
     }
 
     /// Books an accepted step to the finite state `x`: time, switch, sample. `x` may be changed by a
-    /// reset or by the exact values of the drive at a sample. `sizes` is how large the states have been.
+    /// reset or by the exact values of the drive at a sample. `sizes` are the largest sizes of the states so far.
     pub(crate) fn accept(
         &mut self,
         options: &Options,
@@ -184,10 +184,10 @@ impl<T: Task> Lane<T> {
         }
         if arrives {
             self.set_drive(x);
-            // The sample is the state after all switches at its instant, whatever side of it rounding or the
-            // error of the solution puts them on.
+            // The sample is the state after all switches at its instant, even if rounding or the error of the
+            // solution puts them behind it.
             if firing.is_some() || arrival == Arrival::WithGuardsNearZero {
-                let base = x.len().min(self.base_states());
+                let base = x.len().min(self.system.structure.base_states());
                 let mut spot = Spot {
                     x: x[..base].to_vec(),
                     sizes: sizes(),
@@ -211,15 +211,8 @@ impl<T: Task> Lane<T> {
         if arrives { self.sample(x) } else { Next::Go }
     }
 
-    /// States of the system without tangents.
-    fn base_states(&self) -> usize {
-        let structure = &self.system.structure;
-        let tangents = structure.tangents.as_ref();
-        tangents.map_or(structure.states, |tangents| tangents.first)
-    }
-
-    /// Exact values of the drive at the next sample: its own error does not add up, and what depends on time
-    /// alone switches at the sample it belongs to.
+    /// Sets the drive to its exact values at the next sample: its own error does not add up, and a guard of time
+    /// alone switches at its sample.
     fn set_drive(&self, x: &mut [f64]) {
         if let Some((cos, sin)) = self.system.structure.drive {
             (x[cos], x[sin]) = phase(self.part + 1, self.parts);

@@ -5,8 +5,10 @@
 
 mod adiabatic;
 mod arith;
+mod builder;
 mod cauchy;
 mod compile;
+mod evaluator;
 mod event;
 mod flatten;
 mod jets;
@@ -14,24 +16,30 @@ mod kernel;
 mod lane;
 mod parallel;
 mod polynomial;
+mod program;
 mod record;
 mod rk4;
+mod rows;
 mod run;
 mod saltation;
 mod series;
 mod sizes;
 mod special;
+mod structure;
 mod system;
 mod tangent;
+mod task;
 mod taylor;
 pub mod testing;
 
+pub use builder::SystemBuilder;
+pub use evaluator::Evaluator;
 pub use parallel::{integrate_all, integrate_groups, integrate_stream, on_threads};
+pub use program::{BuildError, Mode, Node, Transition, Unit};
 pub use record::{RecordedSwitch, Recording, record};
-pub use run::{
+pub use run::integrate;
+pub use system::{Point, System};
+pub use task::{
     End, Instructions, IntegrateError, Leg, Method, Minimum, Options, Sample, Status, Step, Switch,
-    SwitchKind, Task, integrate,
-};
-pub use system::{
-    BuildError, Evaluator, Mode, Node, Point, System, SystemBuilder, Transition, Unit,
+    SwitchKind, Task,
 };

@@ -1,13 +1,14 @@
-//! Many tasks on many threads, with the answer of one thread: all kept, or streamed to a sink.
+//! Many tasks on many threads, with the bits of one thread: all kept, or streamed to a sink.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use crate::run::{IntegrateError, Options, Task, integrate};
+use crate::run::integrate;
+use crate::task::{End, IntegrateError, Leg, Options, Sample, Step, Switch, Task};
 
 /// Runs all tasks on `threads` threads (0: as many as the machine has) and gives them back in their
-/// order. Tasks are started in order, so put the longest first. What a task sees is the same for any
-/// number of threads, to the bit.
+/// order. Tasks are started in order, so put the longest first. The numbers that a task sees are the
+/// same for any number of threads, to the bit.
 ///
 /// # Errors
 /// As [`integrate`]; the first error stops the others.
@@ -22,8 +23,8 @@ pub fn integrate_all<T: Task>(
         .unwrap_or_default())
 }
 
-/// As [`integrate_all`] for several groups, each of systems of one structure. A thread stays with a
-/// group while that has tasks, then helps with the next, so that few long tasks of one group do not
+/// Runs several groups of tasks, each of systems of one structure, as [`integrate_all`] runs one. A thread stays
+/// with a group while that has tasks, then helps with the next, so that few long tasks of one group do not
 /// leave a thread idle while another group has work.
 ///
 /// # Errors
@@ -76,13 +77,14 @@ pub fn integrate_groups<T: Task>(
 
 /// Runs tasks as an iterator yields them and gives each to `sink` when it has ended: one at a time, in
 /// no particular order. Neither the tasks to come nor those that have ended are kept, so there may be
-/// more of them than memory holds. What a task sees is the same for any number of threads, to the bit.
+/// more of them than memory holds. The numbers that a task sees are the same for any number of
+/// threads, to the bit.
 ///
-/// The iterator and the sink are each behind a lock: what takes long belongs into [`Task::begin`] and
+/// The iterator and the sink are each behind a lock: long work belongs into [`Task::begin`] and
 /// [`Task::end`], which run side by side.
 ///
 /// # Errors
-/// As [`integrate`], and whatever `sink` refuses with; the first error stops the others, and nothing
+/// As [`integrate`], and any error of `sink`; the first one stops the others, and nothing
 /// more is given to `sink`.
 pub fn integrate_stream<T, E>(
     options: &Options,
@@ -127,10 +129,10 @@ where
         .try_for_each(|result| result.map_err(E::from))
 }
 
-/// `work(0)`, `work(1)`, ... on as many threads (0: as the machine has), at most `most`, and what they give.
+/// Calls `work(0)`, `work(1)`, ... on `threads` threads (0: as many as the machine has), at most `most`; the results.
 ///
 /// A system may refuse a thread: its limits are reached, or there is no room for a stack. The others then do the work
-/// of those that are missing, so `work` draws what it does from a queue that all share, and the first one is the
+/// of those that are missing, so `work` must draw its tasks from a queue that all share. The first one runs on the
 /// thread that calls.
 pub fn on_threads<O: Send>(
     threads: usize,
@@ -166,25 +168,25 @@ struct Numbered<T> {
 }
 
 impl<T: Task> Task for Numbered<T> {
-    fn begin(&mut self) -> Option<crate::Leg> {
+    fn begin(&mut self) -> Option<Leg> {
         self.task.begin()
     }
-    fn sample(&mut self, sample: &crate::Sample<'_>) -> bool {
+    fn sample(&mut self, sample: &Sample<'_>) -> bool {
         self.task.sample(sample)
     }
     fn tangents(&mut self, columns: &mut [f64]) {
         self.task.tangents(columns);
     }
-    fn switch(&mut self, switch: &crate::Switch<'_>) {
+    fn switch(&mut self, switch: &Switch<'_>) {
         self.task.switch(switch);
     }
     fn wants_steps(&self) -> bool {
         self.task.wants_steps()
     }
-    fn step(&mut self, step: &crate::Step<'_>) {
+    fn step(&mut self, step: &Step<'_>) {
         self.task.step(step);
     }
-    fn end(&mut self, end: crate::End) -> Option<crate::Leg> {
+    fn end(&mut self, end: End) -> Option<Leg> {
         self.task.end(end)
     }
 }
@@ -192,7 +194,6 @@ impl<T: Task> Task for Numbered<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::{End, Leg, Sample};
     use crate::testing::forced_oscillator;
     use std::sync::atomic::AtomicUsize;
 

@@ -1,8 +1,8 @@
-//! Where a polynomial on [0, 1] first falls through zero, without missing a root.
+//! The first place on [0, 1] at which a polynomial falls through zero, without missing a root.
 //!
 //! In Bernstein form a polynomial lies within the hull of its coefficients and has at most as many
 //! roots as they have sign changes (Descartes). Halving the interval until each piece has none or
-//! one finds every root, a touch between two samples included; what stays undecided down to the
+//! one finds every root, a touch between two samples included; a piece that stays undecided down to the
 //! rounding of the interval is a tangency. See Mourrain, Rouillier & Roy (2005).
 
 /// Highest degree handled.
@@ -11,7 +11,7 @@ pub(crate) const MAX_DEGREE: usize = 30;
 /// The answer of [`first_descent`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Descent {
-    /// Where it falls through zero first, in (0, 1].
+    /// The first place in (0, 1] at which it falls through zero.
     pub(crate) at: Option<f64>,
     /// Tangencies before that: places where it touches zero, to rounding, and stays positive.
     pub(crate) touches: u32,
@@ -37,7 +37,7 @@ const SAME_TOUCH: f64 = 1e-6;
 #[derive(Clone, Debug)]
 pub(crate) struct BernsteinTable {
     degree: usize,
-    /// By k, then j from k on.
+    /// Ordered by k, then j from k on.
     columns: Vec<f64>,
     /// The table for the head of a longer polynomial.
     pub(crate) head: Option<Box<Self>>,
@@ -241,7 +241,7 @@ pub(crate) fn minima(power: &[f64]) -> impl Iterator<Item = (f64, f64)> {
 }
 
 impl Descent {
-    /// What falls through zero at the edge of a piece seemed to touch it, seen from the left.
+    /// Drops the touch that a crossing at the edge of a piece seemed to be, seen from the left.
     fn new(at: Option<f64>, mut touched: Vec<f64>) -> Self {
         if let Some(at) = at {
             touched.retain(|touch| (at - touch).abs() >= SAME_TOUCH);

@@ -1,29 +1,30 @@
-//! One trajectory, kept: every sample and every switch.
+//! A record of one trajectory: every sample and every switch.
 
 use std::sync::atomic::AtomicBool;
 
-use crate::run::{End, IntegrateError, Leg, Options, Sample, Switch, SwitchKind, Task, integrate};
+use crate::run::integrate;
 use crate::system::Point;
+use crate::task::{End, IntegrateError, Leg, Options, Sample, Switch, SwitchKind, Task};
 
-/// A switch as kept.
+/// A switch in a [`Recording`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RecordedSwitch {
     /// Time since the start of the run.
     pub time: f64,
-    /// Which unit.
+    /// Unit that switched.
     pub unit: usize,
-    /// What happened.
+    /// Mode change or tangency.
     pub kind: SwitchKind,
 }
 
-/// Everything about one trajectory but its dense output.
+/// A trajectory without its dense output.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recording {
     /// State at the end of each period.
     pub samples: Vec<Point>,
     /// Switches and tangencies in time order.
     pub switches: Vec<RecordedSwitch>,
-    /// How it ended.
+    /// Its end.
     pub end: End,
 }
 
@@ -70,7 +71,7 @@ impl Task for Recorder {
 /// let ball = testing::bouncing_ball(9.81, 0.8, 10.0);
 /// let start = ball.point(&[0], &[1.0, 0.0]);
 /// let run = record(&Leg { system: ball, start, periods: 1 }, &Options::default())?;
-/// // Infinitely many bounces in finite time: the run says so and stops.
+/// // Infinitely many bounces in finite time: the run reports that and stops.
 /// assert!(matches!(run.end.status, Status::Chattering { .. }));
 /// # Ok::<(), saltus_hybrid::IntegrateError>(())
 /// ```

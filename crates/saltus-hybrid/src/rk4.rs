@@ -1,19 +1,19 @@
 //! Classical Runge-Kutta of order 4 with switches located inside the step.
 //!
 //! The solution within a step is RK4 itself with a shorter step: of order 4 everywhere, so a switch
-//! costs no order. A cubic Hermite interpolant of each guard says where to look; Newton on the
-//! method's own solution says where it is.
+//! costs no order. A cubic Hermite interpolant of each guard shows where to look; Newton's method on RK4
+//! itself finds the root.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use crate::arith::Scalar;
-use crate::compile::{Structure, Watch};
 use crate::event::{Cause, Firing, Spot};
 use crate::lane::{Arrival, Lane, Next};
 use crate::polynomial::BernsteinTable;
-use crate::run::{IntegrateError, Leg, Options, Step, Task, check_stop};
 use crate::series::{Series, expand, values};
+use crate::structure::{Structure, Watch};
+use crate::task::{IntegrateError, Leg, Options, Status, Step, Task, check_stop};
 
 /// Degree of the interpolant.
 const HERMITE: usize = 3;
@@ -39,92 +39,148 @@ fn run_leg<T: Task>(
     leg: &Leg,
     stop: &AtomicBool,
 ) -> Result<(T, Option<Leg>), IntegrateError> {
-    let table = BernsteinTable::new(HERMITE);
     let structure = Arc::clone(&leg.system.structure);
-    let mut lane = Lane::new(task, leg, options)?;
-    let mut stepper = Stepper::new(&structure, leg.system.period);
-    let mut x = leg.start.x.clone();
-    let mut sizes = vec![0.0_f64; x.len()];
-    let mut slot = 1;
-    let mut dense = Vec::new();
-    if lane.is_over() {
-        return Ok(lane.finish(crate::Status::Completed, &x));
+    let mut run = Run {
+        options,
+        steps_per_period,
+        table: BernsteinTable::new(HERMITE),
+        lane: Lane::new(task, leg, options)?,
+        stepper: Stepper::new(&structure, leg.system.period),
+        structure,
+        x: leg.start.x.clone(),
+        sizes: vec![0.0; leg.start.x.len()],
+        slot: 1,
+        dense: Vec::new(),
+    };
+    if run.lane.is_over() {
+        return Ok(run.lane.finish(Status::Completed, &run.x));
     }
     loop {
         check_stop(stop)?;
-        let grid = leg.system.period * f64::from(slot) / f64::from(steps_per_period);
-        let target = grid.min(lane.next_sample());
-        let h = target - lane.time;
-        let sized = sizes.iter_mut().zip(&x);
+        if let Some(status) = run.step() {
+            return Ok(run.lane.finish(status, &run.x));
+        }
+    }
+}
+
+/// A leg under way.
+struct Run<'a, T> {
+    options: &'a Options,
+    steps_per_period: u32,
+    table: BernsteinTable,
+    structure: Arc<Structure>,
+    lane: Lane<T>,
+    stepper: Stepper,
+    x: Vec<f64>,
+    /// Largest size of each state in this period.
+    sizes: Vec<f64>,
+    /// Point of the grid at which the coming step ends, from 1 in each period.
+    slot: u32,
+    dense: Vec<f64>,
+}
+
+impl<T: Task> Run<'_, T> {
+    /// Steps to the next point of the grid, sample or switch; `Some` if the leg is over. `x` is then its last state.
+    fn step(&mut self) -> Option<Status> {
+        let period = self.lane.system.period;
+        let grid = period * f64::from(self.slot) / f64::from(self.steps_per_period);
+        let target = grid.min(self.lane.next_sample());
+        let h = target - self.lane.time;
+        let sized = self.sizes.iter_mut().zip(&self.x);
         sized.for_each(|(size, x)| *size = size.max(x.abs()));
-        stepper.stream = leg.system.stream(&lane.guarded.modes);
-        stepper.open(&structure, &x);
-        stepper.step(&structure, lane.time, h, &mut x);
-        stepper.close(&structure, &x);
-        let coming = lane.look(
-            &table,
-            HERMITE,
-            |_, watch, power| {
-                power.copy_from_slice(&stepper.cubic(watch.guard_slot(&structure), h));
-                true
-            },
-            || stepper.spot(&structure, &sizes),
-        );
-        lane.touched(coming.touches, h);
-        let mut firing = coming.firing;
-        if let Some(found) = firing {
-            let watch = lane.guarded.watch(&structure, &found);
-            firing = stepper.polish(&structure, watch, lane.time, h, found, &mut x);
-        } else if coming.until < 1.0 {
-            stepper.step(&structure, lane.time, coming.until * h, &mut x);
-            stepper.close(&structure, &x);
+        let (part, firing) = self.advance(h);
+        if self.x.iter().any(|x| !x.is_finite()) {
+            let status = self.lane.not_finite(self.x.iter().copied());
+            self.x = self.stepper.opened(&self.structure);
+            return Some(status);
         }
-        if x.iter().any(|x| !x.is_finite()) {
-            let status = lane.not_finite(x);
-            return Ok(lane.finish(status, &stepper.opened(&structure)));
-        }
-        let part = match (coming.firing, firing) {
-            (Some(_), None) => 1.0, // the root lies beyond the step
-            (_, Some(firing)) => firing.theta,
-            (None, None) => coming.until,
-        };
         let length = if part < 1.0 { part * h } else { h };
         if length > 0.0 {
-            if lane.wants_steps {
-                stepper.interpolate(&structure, length, &mut dense);
-                let (period, time) = (lane.period, lane.time);
-                let modes = &lane.guarded.modes;
-                lane.task.step(&Step {
-                    period,
-                    time,
-                    length,
-                    modes,
-                    degree: HERMITE,
-                    power: &dense,
-                    structure: &structure,
-                });
-            }
-            lane.guarded.advanced(HERMITE, |guard, power| {
-                power.copy_from_slice(&stepper.cubic(structure.guard_slots[guard], length));
-            });
+            self.show(length);
         }
         let whole = part == 1.0;
-        let arrival = if whole && target == lane.next_sample() {
+        let arrival = if whole && target == self.lane.next_sample() {
             Arrival::WithGuardsNearZero
         } else {
             Arrival::No
         };
-        let (period, on_grid) = (lane.period, whole && target == grid);
-        let next = lane.accept(options, length, firing, arrival, &mut x, || sizes.clone());
-        if lane.period > period {
-            sizes.fill(0.0);
-            slot = 1;
+        let (period, on_grid) = (self.lane.period, whole && target == grid);
+        let (x, sizes) = (&mut self.x, || self.sizes.clone());
+        let next = self
+            .lane
+            .accept(self.options, length, firing, arrival, x, sizes);
+        if self.lane.period > period {
+            self.sizes.fill(0.0);
+            self.slot = 1;
         } else if on_grid {
-            slot += 1;
+            self.slot += 1;
         }
-        if let Next::Over(status) = next {
-            return Ok(lane.finish(status, &x));
+        match next {
+            Next::Go => None,
+            Next::Over(status) => Some(status),
         }
+    }
+
+    /// Moves `x` by a step of `h`, or up to a switch within it; gives the part of the step that was made, and the
+    /// switch.
+    fn advance(&mut self, h: f64) -> (f64, Option<Firing>) {
+        let Self {
+            structure,
+            lane,
+            stepper,
+            x,
+            ..
+        } = self;
+        stepper.stream = lane.system.stream(&lane.guarded.modes);
+        stepper.open(structure, x);
+        stepper.step(structure, lane.time, h, x);
+        stepper.close(structure, x);
+        let coming = lane.look(
+            &self.table,
+            HERMITE,
+            |_, watch, power| {
+                power.copy_from_slice(&stepper.cubic(watch.guard_slot(structure), h));
+                true
+            },
+            || stepper.spot(structure, &self.sizes),
+        );
+        lane.touched(coming.touches, h);
+        if let Some(found) = coming.firing {
+            let watch = lane.guarded.watch(structure, &found);
+            let firing = stepper.polish(structure, watch, lane.time, h, found, x);
+            // Without a firing the root lies beyond the step.
+            return (firing.map_or(1.0, |firing| firing.theta), firing);
+        }
+        if coming.until < 1.0 {
+            stepper.step(structure, lane.time, coming.until * h, x);
+            stepper.close(structure, x);
+        }
+        (coming.until, None)
+    }
+
+    /// Shows the step to the task and to the guards.
+    fn show(&mut self, length: f64) {
+        let Self {
+            structure,
+            lane,
+            stepper,
+            ..
+        } = self;
+        if lane.wants_steps {
+            stepper.interpolate(structure, length, &mut self.dense);
+            lane.task.step(&Step {
+                period: lane.period,
+                time: lane.time,
+                length,
+                modes: &lane.guarded.modes,
+                degree: HERMITE,
+                power: &self.dense,
+                structure,
+            });
+        }
+        lane.guarded.advanced(HERMITE, |guard, power| {
+            power.copy_from_slice(&stepper.cubic(structure.guard_slots[guard], length));
+        });
     }
 }
 
@@ -159,10 +215,8 @@ impl Stepper {
 
     /// The opened point, as the rules of events see it.
     fn spot(&self, structure: &Structure, sizes: &[f64]) -> Spot {
-        let tangents = structure.tangents.as_ref();
-        let states = tangents.map_or(structure.states, |tangents| tangents.first);
         let mut x = self.opened(structure);
-        x.truncate(states);
+        x.truncate(structure.base_states());
         Spot {
             x,
             sizes: sizes.to_vec(),

@@ -1,4 +1,4 @@
-//! What a switch does to the tangent flow.
+//! The tangent flow across a switch.
 //!
 //! A neighbour at d reaches the guard g later by s = -(Dg d)/g', g' being the rate of g along the flow
 //! before the switch. So the columns cross a switch with the reset R as
@@ -8,13 +8,13 @@
 //! ```
 //!
 //! (the saltation matrix; di Bernardo et al., Piecewise-smooth Dynamical Systems (2008), section 2.5).
-//! Where the field does not jump and nothing is reset it is the identity. A switch that fires at once after
+//! It is the identity if the field does not jump and nothing is reset. A switch that fires at once after
 //! another has the s of that one: a neighbour that comes later makes all of the chain later.
 
-use crate::compile::Watch;
+use crate::evaluator::Evaluator;
 use crate::event::{Cause, Firing};
-use crate::system::{Evaluator, Mode};
-use crate::tangent::Tangents;
+use crate::program::Mode;
+use crate::structure::{Tangents, Watch};
 
 /// A jump of the field below this part of its size is rounding: near grazing it must not be divided by
 /// a vanishing rate.
@@ -72,18 +72,9 @@ pub(crate) fn cross(
     after_modes[firing.unit] = watch.to;
     let after = field(evaluator.nodes(&after_modes, state));
 
-    // DR f- - f+, and DR d
-    let mut jump: Vec<f64> = before.iter().zip(&after).map(|(b, a)| b - a).collect();
-    for (&(to, _), rate) in watch.resets.iter().zip(&reset_rates) {
-        jump[to] = rate - after[to];
-    }
-    let largest = before
-        .iter()
-        .chain(&after)
-        .fold(0.0, |m: f64, f| m.max(f.abs()));
-    let jumps = jump[..tangents.size]
-        .iter()
-        .any(|j| j.abs() > NO_JUMP * largest);
+    let rates = watch.resets.iter().zip(&reset_rates);
+    let rates = rates.map(|(&(to, _), &rate)| (to, rate));
+    let jump = jump(&before, &after, rates, tangents.size);
     let columns = columns.chunks_exact_mut(size);
     for ((column, reset_slopes), &later) in columns.zip(reset_slopes).zip(later.iter()) {
         for (&(to, _), slope) in watch.resets.iter().zip(reset_slopes) {
@@ -91,16 +82,33 @@ pub(crate) fn cross(
                 *d = slope;
             }
         }
-        if jumps {
-            column
-                .iter_mut()
-                .zip(&jump)
-                .for_each(|(d, jump)| *d += jump * later);
+        for (d, jump) in column.iter_mut().zip(jump.iter().flatten()) {
+            *d += jump * later;
         }
     }
 }
 
-/// How much later neighbours reach a place where the rate of a guard vanishes: the rate takes the part of
+/// DR f- - f+, unless its first `size` components are rounding. `rates` holds the states that are reset, each with its
+/// component of DR f-.
+fn jump(
+    before: &[f64],
+    after: &[f64],
+    rates: impl Iterator<Item = (usize, f64)>,
+    size: usize,
+) -> Option<Vec<f64>> {
+    let mut jump: Vec<f64> = before.iter().zip(after).map(|(b, a)| b - a).collect();
+    for (to, rate) in rates {
+        jump[to] = rate - after[to];
+    }
+    let largest = before
+        .iter()
+        .chain(after)
+        .fold(0.0, |m: f64, f| m.max(f.abs()));
+    let jumps = |j: &f64| j.abs() > NO_JUMP * largest;
+    jump[..size].iter().any(jumps).then_some(jump)
+}
+
+/// Delays of neighbours at a place at which the rate of a guard vanishes: the rate takes the part of
 /// the guard, and its derivatives are differences.
 fn turn<'a>(
     evaluator: &mut Evaluator,

@@ -1,13 +1,13 @@
 //! Taylor coefficients of every node, order by order (automatic differentiation in time).
 //!
-//! With node(t0 + s) = sum_k node[k] s^k: a sum is a sum in each order, a product is the Cauchy
+//! Let node(t0 + s) = sum_k node[k] s^k. A sum is a sum in each order, a product is the Cauchy
 //! product, and x' = node gives x[k+1] = node[k]/(k+1). See Jorba & Zou, Experiment. Math. 14 (2005).
 
-use crate::adiabatic::Adiabatic;
 use crate::arith::{Arith, Scalar};
 use crate::cauchy::{Orders, products, squares, squares_and_products};
-use crate::compile::{Cubic, Group, MAX_NODES, Op, Place, Step, Structure};
+use crate::rows::block_rows;
 use crate::special::Shape;
+use crate::structure::{Adiabatic, Cubic, Group, MAX_NODES, Op, Place, Step, Structure};
 
 /// Taylor coefficients: all nodes at the order in hand, and all orders of those nodes that are needed
 /// later (states, factors of products, guards), each in its slot.
@@ -35,7 +35,7 @@ fn room(structure: &Structure) -> usize {
 }
 
 impl<C: Copy + Default> Series<C> {
-    /// Of this order, or of the order that values take to compute.
+    /// A series of this order, or of the order that values take to compute.
     pub(crate) fn new(structure: &Structure, order: usize) -> Self {
         let order = order.max(structure.order_of_values());
         Self {
@@ -88,7 +88,7 @@ impl<C: Copy + Default> Series<C> {
         &self.now
     }
 
-    /// Every stored coefficient of a program of so many nodes, to be cleared.
+    /// Every stored coefficient of a program of `nodes` nodes, to be cleared.
     pub(crate) fn cells(&mut self, nodes: usize) -> impl Iterator<Item = &mut C> {
         self.now[..nodes].iter_mut().chain(&mut self.kept)
     }
@@ -105,7 +105,7 @@ impl<C: Copy + Default> Series<C> {
     }
 }
 
-/// Where sums are read from and written to.
+/// Places that sums are read from and written to.
 struct Sums<'a, A: Arith, const M: usize> {
     arith: A,
     stream: &'a [A::Cell],
@@ -313,65 +313,6 @@ fn run_cubic<A: Arith>(
     }
 }
 
-/// out = matrix times x, rows by fours and the rest; `onto` adds to what is there.
-#[inline(always)]
-pub(crate) fn block_rows<A: Arith>(
-    arith: A,
-    weights: &[A::Cell],
-    x: &[A::Cell],
-    onto: bool,
-    out: &mut [A::Cell],
-) {
-    let mut row = 0;
-    while row < out.len() {
-        let weights = &weights[row * x.len()..];
-        match out.len() - row {
-            1 => some_rows::<A, 1>(arith, weights, x, onto, &mut out[row..]),
-            2 => some_rows::<A, 2>(arith, weights, x, onto, &mut out[row..]),
-            3 => some_rows::<A, 3>(arith, weights, x, onto, &mut out[row..]),
-            _ => some_rows::<A, 4>(arith, weights, x, onto, &mut out[row..]),
-        }
-        row += 4;
-    }
-}
-
-#[cfg_attr(not(unoptimised), inline(always))]
-fn some_rows<A: Arith, const W: usize>(
-    arith: A,
-    weights: &[A::Cell],
-    x: &[A::Cell],
-    onto: bool,
-    out: &mut [A::Cell],
-) {
-    let mut sums = [arith.splat(0.0); W];
-    if onto {
-        for w in 0..W {
-            sums[w] = arith.load(&out[w]);
-        }
-    }
-    // Two sums for each row, so that fewer multiply-adds wait for the one before.
-    let mut others = [arith.splat(0.0); W];
-    let columns = weights[..W * x.len()].as_chunks::<W>().0;
-    let (weights, last_weights) = columns.as_chunks::<2>();
-    let (x, last_x) = x.as_chunks::<2>();
-    for (weights, x) in weights.iter().zip(x) {
-        let (even, odd) = (arith.load(&x[0]), arith.load(&x[1]));
-        for w in 0..W {
-            sums[w] = arith.mul_add(arith.load(&weights[0][w]), even, sums[w]);
-            others[w] = arith.mul_add(arith.load(&weights[1][w]), odd, others[w]);
-        }
-    }
-    for (weights, x) in last_weights.iter().zip(last_x) {
-        let x = arith.load(x);
-        for w in 0..W {
-            sums[w] = arith.mul_add(arith.load(&weights[w]), x, sums[w]);
-        }
-    }
-    for w in 0..W {
-        out[w] = arith.store(arith.add(sums[w], others[w]));
-    }
-}
-
 /// Fills orders 1..=order of all states, and of the guards, from order 0 of the states.
 #[inline(always)]
 pub(crate) fn expand<A: Arith>(
@@ -400,7 +341,7 @@ pub(crate) fn expand<A: Arith>(
     }
 }
 
-/// One round.
+/// Fills all orders once, with the adiabatic nodes as they are.
 #[inline(always)]
 fn expand_once<A: Arith>(
     arith: A,

@@ -1,4 +1,4 @@
-//! How large the states of each lane are: what the error of a step is relative to.
+//! Sizes of the states of each lane, to which the error of a step is relative.
 //!
 //! A state is as large as it has been in this period, to a factor of [`OUTGROWN`], and at least as large as its scale
 //! ([`SystemBuilder::scale`](crate::SystemBuilder::scale)). Where it has none it is measured at the start of a period,
@@ -13,13 +13,13 @@ use crate::arith::{LANES, Pack};
 /// Growth beyond its size after which a state is measured again.
 const OUTGROWN: f64 = 2.0;
 
-/// States of one body share a size up to this many scales. What is farther away is not part of it any more.
+/// States of one body share a size up to this many scales. A state farther away is no part of it any more.
 const FAR: f64 = 16.0;
 
 /// Places in a step at which the series of a state is looked at.
 const PLACES: u32 = 4;
 
-/// Of all states that take part in error control, in all lanes.
+/// Sizes of all states that take part in error control, in all lanes.
 pub(crate) struct Sizes {
     /// 1 over the size of each state; 0 if there is none.
     pub(crate) inverse: Vec<Pack>,
@@ -33,7 +33,7 @@ pub(crate) struct Sizes {
     outgrown: Pack,
     /// Whether a state of the lane has no size.
     unknown: [bool; LANES],
-    /// Whether a state of the lane may be larger than its scale says.
+    /// Whether a state of the lane may be larger than its scale.
     grown: [bool; LANES],
 }
 
@@ -52,7 +52,7 @@ impl Sizes {
         }
     }
 
-    /// A lane begins a leg with these scales, or, with none, is idle.
+    /// Begins a leg on a lane with these scales; a lane without any is idle.
     pub(crate) fn begin(&mut self, lane: usize, scales: &[f64], together: bool) {
         self.together.0[lane] = f64::from(u8::from(together));
         self.unknown[lane] = !together && !scales.is_empty();
@@ -77,13 +77,13 @@ impl Sizes {
         self.inverse[state].0[lane] == 0.0
     }
 
-    /// A switch may wake a state that has been zero.
+    /// Measures states of a lane again that have been zero: a switch may wake them.
     pub(crate) fn switched(&mut self, lane: usize) {
         let mut states = 0..self.size.len();
         self.unknown[lane] |= states.any(|state| self.is_unknown(state, lane));
     }
 
-    /// A period begins at the state `x`.
+    /// Begins a period at the state `x`.
     pub(crate) fn period_begins(&mut self, lane: usize, x: &[f64]) {
         let together = self.together.0[lane] > 0.0;
         if together && !std::mem::take(&mut self.grown[lane]) {
@@ -103,7 +103,7 @@ impl Sizes {
         }
     }
 
-    /// How large the states of a lane have been.
+    /// Sizes of the states of a lane.
     pub(crate) fn of_lane(&self, lane: usize) -> Vec<f64> {
         self.size.iter().map(|size| size.0[lane]).collect()
     }

@@ -1,26 +1,17 @@
-//! The variational equations of a program, as more of the same program.
+//! Variational equations of a program, as more of the same program.
 //!
 //! A column d of the tangent flow obeys d' = Df(x) d. The derivative of a sum is a sum and that of a product
 //! two products, so the equations of any number of columns are appended to a program, operation by
 //! operation. The step follows the trajectory and the columns, each held to the tolerance by its own size: a
-//! fast oscillation that the trajectory has lost is alive in its tangents. The drive keeps its phase, so a column has as many components as there
-//! are declared states.
+//! fast oscillation that the trajectory has lost is alive in its tangents. The drive keeps its phase, so a column
+//! has as many components as there are declared states.
 
 use std::sync::Arc;
 
-use crate::compile::Structure;
-use crate::system::{BuildError, Node, RawOp, System, SystemBuilder};
-
-/// What a program with tangent columns knows about them. They are the last states, column by column.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Tangents {
-    /// The program without them; its coefficients are the first ones of the program with them.
-    pub(crate) base: Arc<Structure>,
-    /// First state of the first column.
-    pub(crate) first: usize,
-    /// Length of a column.
-    pub(crate) size: usize,
-}
+use crate::builder::SystemBuilder;
+use crate::program::{BuildError, Node, Operation, Program};
+use crate::structure::Tangents;
+use crate::system::System;
 
 impl System {
     /// This system with `columns` columns of its tangent flow beside the state; they are read and set
@@ -30,19 +21,20 @@ impl System {
     /// # Errors
     /// [`BuildError::TooLarge`] for more columns than a program has room for.
     pub fn with_tangents(&self, columns: usize) -> Result<Self, BuildError> {
-        let plan = &self.plan;
-        let mut b = SystemBuilder::clone(plan);
-        b.coefficients = self.coefficients.to_vec();
-        let (first, size) = (plan.derivative.len(), plan.declared);
-        b.derivative
-            .extend(std::iter::repeat_n(None, columns * size));
-        b.quadratures += columns * size;
+        let base = &*self.program;
+        let mut program = base.clone();
+        program.coefficients = self.coefficients.to_vec();
+        let (first, size) = (base.derivative.len(), base.declared);
+        let none = std::iter::repeat_n(None, columns * size);
+        program.derivative.extend(none);
+        program.quadratures += columns * size;
+        let mut b = SystemBuilder { program };
         for column in 0..columns {
             let at = first + column * size;
-            let mut slopes = Slopes::new(&mut b, plan, at);
+            let mut slopes = Slopes::new(&mut b, base, at);
             slopes.all();
             for state in 0..size {
-                let rate = plan.derivative[state].ok_or(BuildError::NoDerivative(state))?;
+                let rate = base.derivative[state].ok_or(BuildError::NoDerivative(state))?;
                 let slope = slopes.node(rate);
                 slopes.b.derivative(at + state, slope);
             }
@@ -63,7 +55,7 @@ impl System {
         tangents.map_or(&[], |tangents| &x[tangents.first..])
     }
 
-    /// The same, to be set before a run.
+    /// The tangent columns, to be set before a run.
     pub fn columns_mut<'a>(&self, x: &'a mut [f64]) -> &'a mut [f64] {
         let tangents = self.structure.tangents.as_ref();
         tangents.map_or(&mut [], |tangents| &mut x[tangents.first..])
@@ -85,23 +77,23 @@ type Slope = Vec<(f64, Node)>;
 /// One column on its way through the program.
 struct Slopes<'a> {
     b: &'a mut SystemBuilder,
-    plan: &'a SystemBuilder,
+    program: &'a Program,
     states: Vec<Slope>,
     ops: Vec<Slope>,
 }
 
 impl<'a> Slopes<'a> {
     /// A column whose states begin at `first`.
-    fn new(b: &'a mut SystemBuilder, plan: &'a SystemBuilder, first: usize) -> Self {
-        let mut states = vec![Slope::new(); plan.derivative.len()];
-        for (i, slope) in states[..plan.declared].iter_mut().enumerate() {
+    fn new(b: &'a mut SystemBuilder, program: &'a Program, first: usize) -> Self {
+        let mut states = vec![Slope::new(); program.derivative.len()];
+        for (i, slope) in states[..program.declared].iter_mut().enumerate() {
             slope.push((1.0, Node::State(first + i)));
         }
         Self {
             b,
-            plan,
+            program,
             states,
-            ops: Vec::with_capacity(plan.nodes),
+            ops: Vec::with_capacity(program.nodes),
         }
     }
 
@@ -127,27 +119,27 @@ impl<'a> Slopes<'a> {
     /// Differentiates the whole program.
     fn all(&mut self) {
         let mut reserved = None;
-        for op in &self.plan.ops {
+        for op in &self.program.operations {
             let slopes = match op {
-                RawOp::Linear { constant, terms } => vec![self.sum(*constant, terms)],
-                RawOp::Matrix { weights, nodes } => {
-                    let rows = SystemBuilder::rows(&self.b.coefficients, *weights, nodes.len());
+                Operation::Linear { constant, terms } => vec![self.sum(*constant, terms)],
+                Operation::Matrix { weights, nodes } => {
+                    let rows = self.b.program.matrix(*weights, nodes.len());
                     let slopes = self.of_all(nodes);
                     self.times(&rows, &slopes)
                 }
-                RawOp::Squares(nodes) => {
+                Operation::Squares(nodes) => {
                     let slopes = self.of_all(nodes);
                     self.squares(nodes, &slopes)
                 }
-                RawOp::Products(pairs) => {
+                Operation::Products(pairs) => {
                     let there = pairs.iter().map(|&(a, b)| (a, self.of(b)));
                     let back = pairs.iter().map(|&(a, b)| (b, self.of(a)));
                     let both = there.chain(back).collect::<Vec<_>>();
                     halves(self.products(&both))
                 }
-                RawOp::Cubic { y, added, .. } => self.cubic(op, y, added),
-                RawOp::Adiabatic { count, .. } => {
-                    reserved = Some((op, self.b.ops.len()));
+                Operation::Cubic { y, added, .. } => self.cubic(op, y, added),
+                Operation::Adiabatic { count, .. } => {
+                    reserved = Some((op, self.b.program.operations.len()));
                     let nodes = self.b.append_adiabatic(*count);
                     nodes.into_iter().map(|node| vec![(1.0, node)]).collect()
                 }
@@ -159,7 +151,7 @@ impl<'a> Slopes<'a> {
         }
     }
 
-    /// Of a sum, whose coefficients may depend on modes.
+    /// Differentiates a sum, whose coefficients may depend on modes.
     fn sum(&mut self, constant: usize, terms: &[Node]) -> Slope {
         let terms: Vec<(usize, f64, Node)> = terms
             .iter()
@@ -171,9 +163,9 @@ impl<'a> Slopes<'a> {
         }
         let weights = terms
             .iter()
-            .map(|&(place, c, node)| (c * self.b.coefficients[place], node));
+            .map(|&(place, c, node)| (c * self.b.program.coefficients[place], node));
         let weights: Vec<_> = weights.collect();
-        let first = self.b.coefficients.len() + 1;
+        let first = self.b.program.coefficients.len() + 1;
         let out = self.b.linear(0.0, &weights);
         for (to, (place, factor, _)) in (first..).zip(&terms) {
             self.b.switch_likewise(*place, to, *factor);
@@ -181,7 +173,7 @@ impl<'a> Slopes<'a> {
         vec![(1.0, out)]
     }
 
-    /// Of a matrix times nodes.
+    /// Differentiates a matrix times nodes.
     fn times(&mut self, rows: &[Vec<f64>], slopes: &[Slope]) -> Vec<Slope> {
         let there: Vec<(usize, (f64, Node))> = slopes
             .iter()
@@ -221,8 +213,8 @@ impl<'a> Slopes<'a> {
     }
 
     /// q = y^2, t = A q + added, p = y t: dq = 2 y dy, dt = A dq + d(added), dp = y dt + t dy.
-    fn cubic(&mut self, op: &RawOp, y: &[Node], added: &[Node]) -> Vec<Slope> {
-        let a = SystemBuilder::cubic_matrix(&self.b.coefficients, op);
+    fn cubic(&mut self, op: &Operation, y: &[Node], added: &[Node]) -> Vec<Slope> {
+        let a = self.b.program.cubic_matrix(op);
         let first = self.ops.len();
         let q: Vec<Node> = (first..first + y.len()).map(Node::Op).collect();
         // t itself is no node of the program
@@ -259,17 +251,17 @@ impl<'a> Slopes<'a> {
     }
 
     /// The sources of adiabatic nodes, which come later in the program than these.
-    fn define_adiabatic(&mut self, op: &RawOp, place: usize) {
-        let RawOp::Adiabatic { sources, .. } = op else {
+    fn define_adiabatic(&mut self, op: &Operation, place: usize) {
+        let Operation::Adiabatic { sources, .. } = op else {
             return;
         };
         let slopes = self.of_all(sources);
         let slopes: Vec<Node> = slopes.iter().map(|s| self.b.linear(0.0, s)).collect();
         let mut op = op.clone();
-        if let RawOp::Adiabatic { sources, .. } = &mut op {
+        if let Operation::Adiabatic { sources, .. } = &mut op {
             *sources = slopes;
         }
-        self.b.ops[place] = op;
+        self.b.program.operations[place] = op;
     }
 }
 

@@ -1,8 +1,8 @@
 //! Taylor series on eight asynchronous lanes.
 //!
 //! Each lane of the vector register is a trajectory with its own parameters, time, step, modes and
-//! end; a lane that ends takes the next task. The series of all lanes are computed together; what
-//! differs between lanes (switches, samples) is a few scalar operations each. A single trajectory is
+//! end; a lane that ends takes the next task. The series of all lanes are computed together;
+//! switches and samples, which differ between lanes, take a few scalar operations each. A single trajectory is
 //! a run with seven idle lanes: the same code, hence the same bits.
 
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use crate::arith::LANES;
 use crate::event::Firing;
 use crate::kernel::Kernel;
 use crate::lane::{Arrival, Lane, Next};
-use crate::run::{IntegrateError, Leg, Options, Status, Step, Task, check_stop};
+use crate::task::{IntegrateError, Leg, Options, Status, Step, Task, check_stop};
 
 /// Runs all tasks.
 pub(crate) fn run<T: Task>(
@@ -23,7 +23,7 @@ pub(crate) fn run<T: Task>(
     stop: &AtomicBool,
     done: &mut dyn FnMut(T),
 ) -> Result<(), IntegrateError> {
-    // The first leg there is says what structure all have.
+    // The first leg has the structure of all.
     while let Some(mut task) = tasks.next() {
         if let Some(leg) = task.begin() {
             let structure = &leg.system.structure;
@@ -38,7 +38,7 @@ pub(crate) fn run<T: Task>(
 /// A step that is shorter than this part of a period does not tell which guards are near zero at its end.
 const SHORT: f64 = 1e-6;
 
-/// What a lane does in the coming step, if that is more than to go on.
+/// Events of a lane in the coming step.
 #[derive(Clone, Copy, Default)]
 struct Plan {
     firing: Option<Firing>,
@@ -182,26 +182,7 @@ impl<T: Task> Ensemble<T> {
             whole
         };
         if length > 0.0 {
-            if lane.wants_steps {
-                self.dense.clear();
-                for &node in structure.state_slots.iter().chain(&structure.guard_slots) {
-                    self.dense.extend(kernel.power(slot, node));
-                }
-                let step = Step {
-                    period: lane.period,
-                    time: lane.time,
-                    length,
-                    modes: &lane.guarded.modes,
-                    degree: kernel.order,
-                    power: &self.dense,
-                    structure,
-                };
-                lane.task.step(&step);
-            }
-            lane.guarded.advanced(kernel.order, |guard, power| {
-                let slots = &structure.guard_slots;
-                in_fractions(kernel.power(slot, slots[guard]), length, power);
-            });
+            show(kernel, slot, lane, length, &mut self.dense);
         }
         self.plans[slot].firing = coming.firing;
         self.kernel.lengths.0[slot] = length;
@@ -297,6 +278,36 @@ impl<T: Task> Ensemble<T> {
         }
         Ok(())
     }
+}
+
+/// Shows the coming step of a lane to its task and to its guards.
+fn show<T: Task>(
+    kernel: &Kernel,
+    slot: usize,
+    lane: &mut Lane<T>,
+    length: f64,
+    dense: &mut Vec<f64>,
+) {
+    let structure = &kernel.structure;
+    if lane.wants_steps {
+        dense.clear();
+        for &node in structure.state_slots.iter().chain(&structure.guard_slots) {
+            dense.extend(kernel.power(slot, node));
+        }
+        lane.task.step(&Step {
+            period: lane.period,
+            time: lane.time,
+            length,
+            modes: &lane.guarded.modes,
+            degree: kernel.order,
+            power: dense,
+            structure,
+        });
+    }
+    lane.guarded.advanced(kernel.order, |guard, power| {
+        let slots = &structure.guard_slots;
+        in_fractions(kernel.power(slot, slots[guard]), length, power);
+    });
 }
 
 /// Power coefficients in time as coefficients in the fraction of a step.

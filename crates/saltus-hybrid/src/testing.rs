@@ -1,6 +1,8 @@
 //! Small systems with known answers, for tests of steppers and of analyses.
 
-use crate::system::{BuildError, System, SystemBuilder, Transition};
+use crate::builder::SystemBuilder;
+use crate::program::{BuildError, Transition};
+use crate::system::System;
 
 /// A ball under gravity `g` that bounces with restitution `e`: states height and speed, one mode.
 /// Dropped from height H it comes to rest, after infinitely many bounces, at
@@ -19,7 +21,7 @@ pub fn bouncing_ball(g: f64, e: f64, interval: f64) -> System {
     finish(b.build(interval))
 }
 
-/// x'' + 2 zeta x' + x = a cos(omega t), with a wall at x = `wall` that only tells the side: mode 0
+/// x'' + 2 zeta x' + x = a cos(omega t), with a wall at x = `wall` that only marks the side: mode 0
 /// while x < wall, mode 1 while x > wall, and nothing else happens there.
 ///
 /// # Panics

@@ -1,4 +1,4 @@
-//! Beyond a grazing at which the map has no derivative, where no small step leads.
+//! Orbits beyond a grazing at which the map has no derivative, so that no small step leads there.
 
 use crate::continuation::Point;
 use crate::linear::{dot, norm};
@@ -15,11 +15,11 @@ const OFFSETS: [f64; 6] = [1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
 /// Starts by iteration of the map, beside the grazing orbit itself.
 const ITERATES: usize = 4;
 
-/// An orbit found beyond must lie within so many roots of the offset.
+/// An orbit found beyond must lie within this many square roots of the offset.
 const NEAR: f64 = 10.0;
 
 impl<F: Family + ?Sized> Path<'_, F> {
-    /// How far ahead a touch comes to zero, if the last two points go on like that, and of which unit.
+    /// Unit whose touch comes to zero ahead, if the last two points go on like that, and the distance to it.
     pub(crate) fn to_touch(&self, points: &[Point]) -> Option<(usize, f64)> {
         let [.., before, last] = points else {
             return None;
@@ -113,7 +113,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
             return None;
         }
         let reach = NEAR * (offset / (high - low)).abs().sqrt();
-        let old = events::sequence(&last.orbit);
+        let old = last.orbit.switches();
         let shooting = Shooting {
             keep_switches,
             ..self.shooting()
@@ -123,7 +123,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
             let found = shooting.correct(&guess, std::slice::from_ref(&up));
             if let Ok(point) = found.and_then(|pass| self.point(&pass, &up)) {
                 let way = self.apart(last, &point);
-                let new = !events::same(&old, &events::sequence(&point.orbit))
+                let new = !events::same(&old, &point.orbit.switches())
                     && shortest_period(&point.orbit.places) == point.orbit.period();
                 if new && norm(&way) <= reach {
                     let away = dot(&point.tangent, &way) >= 0.0;

@@ -6,8 +6,8 @@ use crate::linear::{dot, minus, size};
 use crate::path::Path;
 use crate::{Family, Orbit, Special, SpecialKind};
 
-/// Two special points at the same place, as parts of the range and of the state: several times what they are
-/// located to, and far less than what lies between different ones.
+/// Distances of special points at the same place, as parts of the range and of the state: several times the accuracy
+/// of their location, and far below the distance of different ones.
 const SAME_PARAMETER: f64 = 1e-7;
 const SAME_STATE: f64 = 1e-4;
 
@@ -17,10 +17,10 @@ const SAME_WAY: f64 = 1.0 - 1e-6;
 /// Points with unstable orbits that end a branch which is followed for its stable part.
 const BEYOND: usize = 1;
 
-/// Which branches are followed, and how.
+/// Settings for a tree of branches.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BranchesOptions {
-    /// How each branch is followed.
+    /// Settings for each branch.
     pub continuation: ContinuationOptions,
     /// Doublings of the period in a row at most; with 6 the ratio of their distances is Feigenbaum's to 1e-3.
     pub doublings: usize,
@@ -113,7 +113,7 @@ pub fn branches<F: Family + ?Sized>(
 /// Branches that grow from each other, under way.
 struct Tree<'a, F: ?Sized> {
     path: Path<'a, F>,
-    /// For branches that end soon after their stable part.
+    /// The same path for branches that end soon after their stable part.
     brief: Path<'a, F>,
     options: &'a BranchesOptions,
     labels: Labels,

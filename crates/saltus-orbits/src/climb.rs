@@ -9,21 +9,21 @@ use saltus_hybrid::{
 
 use crate::{ExponentError, Spectrum};
 
-/// Whose exponents are asked for.
+/// A flow whose exponents are asked for, with its first state.
 #[derive(Clone, Debug)]
 pub struct Start<W> {
     /// The flow, without tangents.
     pub system: System,
-    /// Where it begins, at phase 0 of the drive.
+    /// First state, at phase 0 of the drive.
     pub point: Point,
-    /// Told each period. A climb that begins anew, with more parts, begins with period 1 again.
+    /// Called with the sample of each period. A climb that begins anew, with more parts, begins with period 1 again.
     pub watch: W,
 }
 
-/// How exponents are measured.
+/// Settings for the measurement of exponents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ascent {
-    /// How many, the largest first.
+    /// Number of exponents, the largest first.
     pub columns: usize,
     /// Periods in which the columns turn into their directions, before anything is recorded.
     pub transient: u64,
@@ -31,22 +31,22 @@ pub struct Ascent {
     pub periods: u64,
 }
 
-/// What came of it.
+/// Exponents of one flow, as measured.
 #[derive(Clone, Debug)]
 pub struct Climbed {
     /// The record, as far as the run went.
     pub spectrum: Spectrum,
-    /// How and where the run ended.
+    /// End of the run.
     pub end: End,
 }
 
-/// Why exponents of flows cannot be had.
+/// Reason why exponents of flows cannot be measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ClimbError {
     /// Columns that no state has.
     #[error(transparent)]
     Exponent(#[from] ExponentError),
-    /// No program for so many columns.
+    /// More columns than a program has room for.
     #[error(transparent)]
     Build(#[from] BuildError),
     /// No run.
@@ -56,7 +56,7 @@ pub enum ClimbError {
 
 /// The exponents along flows, each from its own start. Flows of the same program share the lanes.
 ///
-/// Columns are made orthonormal at the end of each period. Where they part by so much within one that rounding
+/// Columns are made orthonormal at the end of each period. If they part by so much within one that rounding
 /// swallows the shorter ones, the climb begins anew with as many parts in each period as that needs.
 ///
 /// # Errors
@@ -94,7 +94,7 @@ pub fn climb<W: FnMut(&Sample<'_>) + Send>(
     Ok(done.into_iter().map(|(_, climbed)| climbed).collect())
 }
 
-/// Those of one program together, with one structure object, which makes later comparisons cheap.
+/// Groups flows of one program, and gives them one structure object, which makes later comparisons cheap.
 fn grouped<W>(climbs: Vec<Climb<W>>) -> Vec<Vec<Climb<W>>> {
     let mut groups: Vec<Vec<Climb<W>>> = Vec::new();
     for mut climb in climbs {
@@ -121,7 +121,7 @@ fn noise(method: Method) -> f64 {
 /// One trajectory with its columns.
 struct Climb<W> {
     number: usize,
-    /// With the columns.
+    /// The system with the columns.
     system: System,
     start: Point,
     how: Ascent,
@@ -159,7 +159,7 @@ impl<W: FnMut(&Sample<'_>) + Send> Climb<W> {
         })
     }
 
-    /// With more parts, if it needs them, or what came of it.
+    /// The climb once more with more parts, if it needs them, or its result.
     fn again(mut self, options: &Options) -> Result<Result<Self, (usize, Climbed)>, ClimbError> {
         let end = self.end.take().ok_or(IntegrateError::Interrupted)?;
         let (states, columns) = (self.system.declared_len(), self.how.columns);

@@ -11,7 +11,7 @@ use crate::{Lost, NewtonOptions, NotFound, Orbit, Special};
 /// The parameter that changes, and how far.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Along {
-    /// Which parameter.
+    /// Index of the parameter.
     pub parameter: usize,
     /// One end of its range.
     pub from: f64,
@@ -19,10 +19,10 @@ pub struct Along {
     pub to: f64,
 }
 
-/// How branches are followed. Steps are lengths in (x_1, parameter).
+/// Settings for following branches. Steps are lengths in (x_1, parameter).
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContinuationOptions {
-    /// How orbits are solved for. Fewer steps than for an orbit from afar: a shorter step along the branch costs
+    /// Settings for the corrector. Fewer steps than for an orbit from afar: a shorter step along the branch costs
     /// less than a Newton iteration that struggles.
     pub newton: NewtonOptions,
     /// First step.
@@ -35,7 +35,7 @@ pub struct ContinuationOptions {
     pub angle: f64,
     /// Points of a branch at most, for each direction.
     pub points: usize,
-    /// How much the whole range of the parameter counts beside states: 1 where states are of the order of 1.
+    /// Weight of the whole range of the parameter beside states: 1 where states are of the order of 1.
     pub weight: f64,
     /// Points in a row with unstable orbits, beyond which a branch ends.
     pub unstable: usize,
@@ -68,7 +68,7 @@ pub struct Point {
     pub orbit: Orbit,
     /// Whether all multipliers lie inside the unit circle.
     pub stable: bool,
-    /// How many lie outside.
+    /// Number of multipliers outside it.
     pub outside: usize,
     /// Unit tangent of the branch: change of the first place, then of the parameter in units of its range
     /// divided by the weight.
@@ -96,27 +96,27 @@ impl Point {
     }
 }
 
-/// Where a branch ends, and why.
+/// An end of a branch.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum End {
-    /// Here it was started.
+    /// The start of the walk.
     Start,
-    /// At an end of the range of the parameter.
+    /// An end of the range of the parameter.
     RangeEnd,
-    /// After as many points as allowed.
+    /// As many points as allowed.
     PointLimit,
-    /// After as many points in a row with unstable orbits as allowed.
+    /// As many points in a row with unstable orbits as allowed.
     Unstable,
-    /// Back where it began: a closed curve.
+    /// Return to the start: a closed curve.
     Closed,
-    /// Where it meets the branch of half its period.
+    /// A meeting with the branch of half its period.
     Halved,
-    /// At a grazing beyond which no orbit was found near.
+    /// A grazing beyond which no orbit was found near.
     Grazing,
-    /// Where a switch comes to the sampling instant and makes the sampled state jump, and no orbit was found beyond.
+    /// A switch at the sampling instant, which makes the sampled state jump, with no orbit found beyond.
     SamplingInstant,
-    /// Where the map ends.
+    /// The end of the map.
     NoMap(Lost),
     /// The corrector failed for the smallest step too.
     Failed(NotFound),
@@ -175,11 +175,11 @@ pub struct Branch {
     pub points: Vec<Point>,
     /// Its special points, in the same order.
     pub specials: Vec<Special>,
-    /// Why it ends before the first point and after the last.
+    /// Its ends, before the first point and after the last.
     pub ends: [End; 2],
 }
 
-/// Why a branch could not be begun.
+/// Reason why a branch could not be begun.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ContinuationError {
@@ -188,7 +188,7 @@ pub enum ContinuationError {
     NoParameter {
         /// The one asked for.
         index: usize,
-        /// How many there are.
+        /// Number of parameters.
         count: usize,
     },
     /// A range that is none.

@@ -1,4 +1,4 @@
-//! Where branches cross.
+//! Branch points: orbits at which two branches cross.
 
 use crate::continuation::Point;
 use crate::locate::ROUNDS;

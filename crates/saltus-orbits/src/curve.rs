@@ -7,10 +7,10 @@
 //! method, lifted to the surface by the corrector.
 
 use crate::continuation::{Along, ContinuationError, ContinuationOptions, End};
+use crate::detect::critical_pair;
+use crate::differences::Free;
 use crate::linear::{dot, minus, norm, unit};
 use crate::path::Path;
-use crate::shooting::Free;
-use crate::special::critical_pair;
 use crate::surface::{Spot, Station, Surface};
 use crate::{Family, Multiplier, NotFound, Orbit, Special, SpecialKind};
 
@@ -23,7 +23,7 @@ const ROUNDS: usize = 30;
 /// Newton steps per point of a curve that let the step grow.
 const EASY: usize = 5;
 
-/// Points before a curve may close, and how far beside the start the closing step may pass.
+/// Points before a curve may close, and the distance from the start at which the closing step may pass.
 const ROUND: usize = 5;
 const BESIDE: f64 = 0.1;
 
@@ -43,7 +43,7 @@ pub struct CurvePoint {
 pub struct Curve {
     /// Its points in their order along the curve.
     pub points: Vec<CurvePoint>,
-    /// Why it ends before the first point and after the last.
+    /// Its ends, before the first point and after the last.
     pub ends: [End; 2],
 }
 

@@ -5,7 +5,7 @@ use crate::{Family, Image, Lost, Matrix, Place, Shot};
 
 /// Any family with its derivative by central differences of step h.
 ///
-/// An image with derivative costs 2 n images. Crossings and touches on the way are not told. The error is some
+/// An image with derivative costs 2 n images. Crossings and touches on the way are not reported. The error is some
 /// h^2 of the third derivative, and the noise of the images over h.
 #[derive(Clone, Copy, Debug)]
 pub struct Differences<'a, F: ?Sized> {
@@ -14,7 +14,7 @@ pub struct Differences<'a, F: ?Sized> {
 }
 
 impl<'a, F: Family + ?Sized> Differences<'a, F> {
-    /// Of `family`, with differences of `step` in each state.
+    /// `family` with differences of `step` in each state.
     pub fn new(family: &'a F, step: f64) -> Self {
         Self { family, step }
     }

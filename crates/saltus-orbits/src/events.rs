@@ -1,18 +1,9 @@
-//! The sequence of switches along an orbit, and how near it comes to another one.
+//! Sequences of switches, and how they differ.
 
-use crate::{Crossing, Orbit, Touch};
+use crate::map::Crossing;
 
 /// One switch: unit, mode left, mode entered.
 pub(crate) type Switch = (usize, usize, usize);
-
-/// All switches of one period in time order.
-pub(crate) fn sequence(orbit: &Orbit) -> Vec<Switch> {
-    orbit
-        .crossings
-        .iter()
-        .flat_map(|all| switches(all))
-        .collect()
-}
 
 /// The switches of one iterate.
 pub(crate) fn switches(crossings: &[Crossing]) -> Vec<Switch> {
@@ -36,15 +27,4 @@ pub(crate) fn units_apart(a: &[Switch], b: &[Switch]) -> Vec<usize> {
     units.sort_unstable();
     units.dedup();
     units
-}
-
-/// The touch of an orbit with the smallest value, among those that `counts` lets through, and its iterate.
-pub(crate) fn nearest_touch(
-    orbit: &Orbit,
-    counts: impl Fn(usize, &Touch) -> bool,
-) -> Option<(usize, Touch)> {
-    let all = orbit.touches.iter().enumerate();
-    all.flat_map(|(iterate, touches)| touches.iter().map(move |touch| (iterate, *touch)))
-        .filter(|(iterate, touch)| touch.value.is_finite() && counts(*iterate, touch))
-        .min_by(|a, b| a.1.value.total_cmp(&b.1.value))
 }

@@ -1,8 +1,8 @@
-//! Lyapunov exponents with honest errors.
+//! Lyapunov exponents with their errors.
 //!
 //! Tangent columns follow a trajectory, are made orthonormal after every iterate, and the logarithms of the
 //! factors by which that shortened them are kept [Benettin, Galgani, Giorgilli & Strelcyn 1980, Meccanica 15,
-//! 9 and 21]. An exponent is their mean. What a finite record knows of it is said in two ways: by a standard
+//! 9 and 21]. An exponent is their mean. The accuracy of a finite record is given in two ways: by a standard
 //! error from batches, and by the weighted Birkhoff average, which on a torus is far better.
 
 mod batches;
@@ -17,7 +17,7 @@ pub use spectrum::{Dimension, Running, Spectrum};
 
 use crate::Lost;
 
-/// Why exponents cannot be had.
+/// Reason why exponents cannot be measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExponentError {
@@ -34,9 +34,9 @@ pub enum ExponentError {
         "{got} numbers where {want} were expected: columns of the length of the state, one after another"
     )]
     Length {
-        /// What was given.
+        /// Number given.
         got: usize,
-        /// What is right.
+        /// Number needed.
         want: usize,
     },
     /// A tangent vector with an infinity or a NaN.
@@ -63,7 +63,7 @@ pub enum ExponentError {
     Lost {
         /// Iterates made before, transient included.
         iterate: usize,
-        /// Why.
+        /// The reason.
         #[source]
         lost: Lost,
     },

@@ -9,7 +9,8 @@ use saltus_hybrid::{
     Task, integrate_all,
 };
 
-use crate::map::{Crossing, Family, Image, Lost, Matrix, Place, Shot, Touch};
+use crate::map::{Crossing, Family, Image, Lost, Place, Shot, Touch};
+use crate::matrix::Matrix;
 
 /// Trajectories that a thread runs at the cost of one.
 const LANES: usize = 8;
@@ -30,7 +31,7 @@ impl<'a, F> Stroboscopic<'a, F>
 where
     F: Fn(&[f64]) -> Result<System, String> + Sync,
 {
-    /// Of the systems that `system_at` makes of parameter values, with `dimension` declared states each.
+    /// The maps of the systems that `system_at` makes of parameter values, with `dimension` declared states each.
     /// `threads` 0 is as many as the machine has; raise `stop` to end a call with [`Lost::Interrupted`].
     pub fn new(
         system_at: F,
@@ -39,7 +40,7 @@ where
         threads: usize,
         stop: &'a AtomicBool,
     ) -> Self {
-        // Asked for once: the answer takes as long as a short orbit.
+        // Asked once: the answer takes as long as a short orbit.
         let available = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         Self {
             system_at,
@@ -160,7 +161,7 @@ impl<F> Stroboscopic<'_, F> {
     }
 }
 
-/// A system, or why there is none.
+/// A system, or the reason why there is none.
 type Made = Result<System, Lost>;
 
 /// The system with the program of the first one that is there: comparing is cheap then.
@@ -171,7 +172,7 @@ fn sharing(system: System, others: &[Made]) -> System {
     }
 }
 
-/// The systems with so many columns of their tangents.
+/// The systems with `width` columns of their tangents.
 fn widened(systems: &[Made], width: usize) -> Vec<Made> {
     if width == 0 {
         return systems.to_vec();
@@ -227,7 +228,7 @@ impl Flight {
         }
     }
 
-    /// Whether it tells what happens on the way: one trajectory for each derivative.
+    /// Whether it reports switches and touches on the way: one trajectory for each derivative does.
     fn reports(&self) -> bool {
         self.first == 0 && !self.columns.is_empty()
     }

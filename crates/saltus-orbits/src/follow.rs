@@ -1,4 +1,4 @@
-//! Following a branch from an orbit, one way or both.
+//! Branches from an orbit, one way or both.
 
 use crate::continuation::{Along, Branch, ContinuationError, ContinuationOptions, End, Point};
 use crate::path::Path;
@@ -10,7 +10,7 @@ use crate::{Family, Orbit, Special};
 /// [`End::Start`].
 ///
 /// # Errors
-/// If the question makes no sense or `start` is no orbit. How the branch ends is an answer.
+/// If the question makes no sense or `start` is no orbit. An end of the branch is an answer.
 pub fn follow<F: Family + ?Sized>(
     family: &F,
     start: &Orbit,
@@ -90,7 +90,7 @@ impl Branch {
 }
 
 impl<F: Family + ?Sized> Path<'_, F> {
-    /// Both ways from a point, unless the first way closes or is stopped. `born` as in [`Self::walk`].
+    /// Walks both ways from a point, unless the first way closes or is stopped. `born` as in [`Self::walk`].
     pub(crate) fn walk_both(
         &self,
         seed: Point,

@@ -4,7 +4,7 @@ use crate::{ExponentError, Family, Image, Place, Shot, Spectrum};
 
 /// A trajectory with its tangent columns and their record.
 ///
-/// One image is asked for at a time. Whoever integrates a flow may move the columns along instead of asking
+/// One image is asked for at a time. An integrator of a flow may move the columns along instead of asking
 /// for the whole derivative, and feed a [`Spectrum`] itself.
 pub struct Follower<'a> {
     family: &'a dyn Family,
@@ -43,11 +43,11 @@ impl<'a> Follower<'a> {
         })
     }
 
-    /// Makes so many iterates more, and records them.
+    /// Makes `iterates` more iterates, and records them.
     ///
     /// # Errors
     /// [`ExponentError::Lost`] where the trajectory ends, [`ExponentError::NoDerivative`] if the family gives none,
-    /// [`ExponentError::NotFinite`]. What was recorded until then stays.
+    /// [`ExponentError::NotFinite`]. The record until then stays.
     pub fn advance(&mut self, iterates: usize) -> Result<(), ExponentError> {
         for _ in 0..iterates {
             let image = self.image()?;
@@ -64,12 +64,12 @@ impl<'a> Follower<'a> {
         self.spectrum.forget();
     }
 
-    /// Where the trajectory is.
+    /// The last place of the trajectory.
     pub fn place(&self) -> &Place {
         &self.place
     }
 
-    /// What was recorded.
+    /// The record.
     pub fn spectrum(&self) -> &Spectrum {
         &self.spectrum
     }

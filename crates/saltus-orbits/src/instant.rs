@@ -1,4 +1,5 @@
-//! Across the sampling instant: a switch that resets states makes the sampled state jump when it wanders through.
+//! Orbits across the sampling instant: a switch that resets states makes the sampled state jump when it wanders
+//! through.
 
 use crate::continuation::Point;
 use crate::events::Switch;
@@ -10,8 +11,8 @@ use crate::{Family, Orbit, Place, Shot, events};
 /// within the smallest step of it.
 const AT_INSTANT: f64 = 1e-3;
 
-/// How far a place is moved to make its switch pass the sampling instant, and how much less the orbit is moved
-/// along the branch: the place decides on which side the motion begins.
+/// Distances by which a place is moved to make its switch pass the sampling instant, and the part of them by which
+/// the orbit is moved along the branch: the place decides on which side the motion begins.
 const OFFSETS: [f64; 5] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2];
 const AHEAD: f64 = 0.1;
 
@@ -90,7 +91,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
 /// of one of them.
 fn wandered(a: &Orbit, b: &Orbit) -> bool {
     let (period, old) = (a.period() as f64, times(a));
-    // From a time to another one, around the orbit the shorter way.
+    // The shorter way around the orbit from a time to another one.
     let way = |from: f64, to: f64| (to - from + period / 2.0).rem_euclid(period) - period / 2.0;
     let moved = |(switch, at): (Switch, f64)| {
         let same = old.iter().filter(|(other, _)| *other == switch);
@@ -100,7 +101,7 @@ fn wandered(a: &Orbit, b: &Orbit) -> bool {
     };
     let moved: Option<Vec<bool>> = times(b).into_iter().map(moved).collect();
     a.period() == b.period()
-        && events::same(&events::sequence(a), &events::sequence(b))
+        && events::same(&a.switches(), &b.switches())
         && moved.is_some_and(|moved| moved.contains(&true))
 }
 

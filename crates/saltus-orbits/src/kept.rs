@@ -3,7 +3,7 @@
 //! The gradient g of a kept quantity obeys g(P(x)) DP(x) = g(x). For quadratic quantities, such as the square of a
 //! length, g = a + B x, and these equations along some iterates of the start are linear in a and B.
 
-use crate::linear::{self, dot, minus, norm, plus, scaled, size, times};
+use crate::linear::{self, dot, minus, norm, plus, scaled, size, times, whole_norm};
 use crate::{Family, Matrix, Place, Shot};
 
 /// A vector solves the equations if no more than this part of them is left: derivatives have errors of some 1e-12.
@@ -24,7 +24,7 @@ pub(crate) struct Kept {
 }
 
 impl Kept {
-    /// With its value at `x`.
+    /// The quantity with its value at `x`.
     fn at(a: Vec<f64>, b: Matrix, x: &[f64]) -> Self {
         let kept = Self { a, b, value: 0.0 };
         Self {
@@ -44,13 +44,13 @@ impl Kept {
         plus(&self.a, 1.0, &times(&self.b, x))
     }
 
-    /// Whether its value is that at `x`, for all that matters.
+    /// Whether its value is that at `x`, to rounding and the errors of an orbit.
     pub(crate) fn holds(&self, x: &[f64]) -> bool {
         let scale = (norm(&self.a) + norm(&times(&self.b, x))) * norm(x);
         self.missing(x).abs() <= HELD * scale.max(self.value.abs())
     }
 
-    /// What its value has more than that at `x`.
+    /// Its value less that at `x`.
     pub(crate) fn missing(&self, x: &[f64]) -> f64 {
         self.value - dot(&self.a, x) - 0.5 * dot(x, &times(&self.b, x))
     }
@@ -97,7 +97,8 @@ pub(crate) fn kept<F: Family + ?Sized>(
         place = next;
     }
     let equations = Matrix::from_fn(rows.len(), unknown, |row, col| rows[row][col]);
-    let solves = |u: &Vec<f64>| norm(&times(&equations, u)) <= SOLVED * equations.norm_l2();
+    let most = SOLVED * whole_norm(&equations);
+    let solves = |u: &Vec<f64>| norm(&times(&equations, u)) <= most;
     let solutions = linear::null_space(&equations, unknown)?;
     let quantity = |u: Vec<f64>| {
         let entry = |i: usize, j: usize| pairs.iter().position(|&p| p == (i.min(j), i.max(j)));

@@ -1,4 +1,4 @@
-//! What a map that depends on parameters can do in the long run: periodic orbits with their Floquet
+//! Long-term behaviour of maps that depend on parameters: periodic orbits with their Floquet
 //! multipliers, branches of them with their bifurcations, Lyapunov exponents.
 //!
 //! Everything here asks a [`Family`] of maps; nothing knows whether that is a forced flow seen once per
@@ -11,6 +11,7 @@ mod continuation;
 mod crossing;
 mod curve;
 mod derived;
+mod detect;
 mod differences;
 mod events;
 mod exponents;
@@ -22,6 +23,8 @@ mod kept;
 mod linear;
 mod locate;
 mod map;
+mod matrix;
+mod newton;
 mod orbit;
 mod path;
 mod samples;
@@ -43,8 +46,10 @@ pub use exponents::{Dimension, Exponent, ExponentError, Running, Spectrum, Weigh
 pub use flow::Stroboscopic;
 pub use follow::{follow, follow_both};
 pub use follower::{Follower, spectrum_of};
-pub use map::{Crossing, Family, Image, Lost, Matrix, Place, Shot, Touch};
-pub use orbit::{Multiplier, NewtonOptions, NotFound, Orbit, Stability, find_orbit};
+pub use map::{Crossing, Family, Image, Lost, Place, Shot, Touch};
+pub use matrix::Matrix;
+pub use newton::{NewtonOptions, NotFound};
+pub use orbit::{Multiplier, Orbit, Stability, find_orbit};
 pub use samples::{Closeness, MAX_PERIOD, OnCycle, Samples};
 pub use settled::settled;
 pub use special::{Special, SpecialKind};

@@ -1,12 +1,35 @@
 //! The few dense steps that orbits need. Every matrix is checked to be finite first: the solvers promise
 //! nothing otherwise.
 
-use crate::Matrix;
+use faer::Mat;
 use faer::linalg::solvers::{DenseSolveCore, PartialPivLu, Solve, SolveLstsq};
+
+use crate::matrix::Matrix;
 
 /// A pivot below this part of the largest one (or of 1, the size of the identity in M - I) says that a
 /// system has no solution worth the name: rounding alone makes pivots of some 1e-15.
 const SINGULAR: f64 = 1e-14;
+
+/// The matrix as the solvers take it.
+fn dense(a: &Matrix) -> Mat<f64> {
+    Mat::from_fn(a.nrows(), a.ncols(), |row, col| a[(row, col)])
+}
+
+/// One column.
+fn column(b: &[f64]) -> Mat<f64> {
+    Mat::from_fn(b.len(), 1, |row, _| b[row])
+}
+
+/// A b.
+pub(crate) fn product(a: &Matrix, b: &Matrix) -> Matrix {
+    let out = dense(a) * dense(b);
+    Matrix::from_fn(out.nrows(), out.ncols(), |row, col| out[(row, col)])
+}
+
+/// Root of the sum of all squares (Frobenius norm).
+pub(crate) fn whole_norm(a: &Matrix) -> f64 {
+    dense(a).norm_l2()
+}
 
 pub(crate) fn is_finite(a: &Matrix) -> bool {
     (0..a.ncols()).all(|col| (0..a.nrows()).all(|row| a[(row, col)].is_finite()))
@@ -17,7 +40,7 @@ pub(crate) fn solve(a: &Matrix, b: &[f64]) -> Option<Vec<f64>> {
     if !is_finite(a) || b.iter().any(|value| !value.is_finite()) {
         return None;
     }
-    let lu = PartialPivLu::new(a.as_ref());
+    let lu = PartialPivLu::new(dense(a).as_ref());
     let pivots = (0..a.nrows()).map(|i| lu.U()[(i, i)].abs());
     let (least, most) = pivots.fold((f64::INFINITY, 1.0_f64), |(least, most), pivot| {
         (least.min(pivot), most.max(pivot))
@@ -25,7 +48,7 @@ pub(crate) fn solve(a: &Matrix, b: &[f64]) -> Option<Vec<f64>> {
     if least <= SINGULAR * most {
         return None;
     }
-    let x = lu.solve(Matrix::from_fn(b.len(), 1, |row, _| b[row]));
+    let x = lu.solve(column(b));
     let x: Vec<f64> = (0..b.len()).map(|row| x[(row, 0)]).collect();
     x.iter().all(|value| value.is_finite()).then_some(x)
 }
@@ -36,7 +59,7 @@ pub(crate) fn eigenvalues(a: &Matrix) -> Option<Vec<(f64, f64, f64)>> {
     if !is_finite(a) {
         return None;
     }
-    let eigen = a.eigen().ok()?;
+    let eigen = dense(a).eigen().ok()?;
     let (values, vectors) = (eigen.S().column_vector(), eigen.U());
     let dual = vectors.partial_piv_lu().inverse();
     let condition = |j: usize| {
@@ -57,9 +80,7 @@ pub(crate) fn least_squares(a: &Matrix, b: &[f64]) -> Option<Vec<f64>> {
     if !is_finite(a) || b.iter().any(|value| !value.is_finite()) {
         return None;
     }
-    let x = a
-        .qr()
-        .solve_lstsq(Matrix::from_fn(b.len(), 1, |row, _| b[row]));
+    let x = dense(a).qr().solve_lstsq(column(b));
     let x: Vec<f64> = (0..a.ncols()).map(|row| x[(row, 0)]).collect();
     x.iter().all(|value| value.is_finite()).then_some(x)
 }
@@ -90,18 +111,23 @@ pub(crate) fn null_space(a: &Matrix, count: usize) -> Option<Vec<Vec<f64>>> {
     if !is_finite(a) {
         return None;
     }
-    let svd = a.svd().ok()?;
+    let svd = dense(a).svd().ok()?;
     let (v, cols) = (svd.V(), a.ncols());
     let column = |col| (0..cols).map(|row| v[(row, col)]).collect();
     Some((cols - count..cols).map(column).collect())
 }
 
-/// det A; not a number if A is not finite.
-pub(crate) fn determinant(a: &Matrix) -> f64 {
-    if is_finite(a) {
-        a.determinant()
-    } else {
-        f64::NAN
+impl Matrix {
+    /// The determinant; NaN if an entry is not finite.
+    ///
+    /// # Panics
+    /// If the matrix is not square.
+    pub fn determinant(&self) -> f64 {
+        if is_finite(self) {
+            dense(self).determinant()
+        } else {
+            f64::NAN
+        }
     }
 }
 

@@ -1,9 +1,9 @@
-//! Where between two points of a branch something happens.
+//! Location of special points between two points of a branch.
 
 use crate::continuation::Point;
+use crate::detect::{Test, changes, pair_passes};
 use crate::path::Path;
-use crate::special::{JUMP, Special, Test, changes, pair_passes};
-use crate::touching::switches;
+use crate::special::{JUMP, Special};
 use crate::{Family, NotFound, linear};
 
 /// Brackets are narrowed to this length, relative to the largest coordinate or 1: what rounding allows.
@@ -50,7 +50,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
         Ok(found)
     }
 
-    /// How many multipliers lie outside the unit circle between two special points. Next to one of them rounding decides
+    /// Number of multipliers outside the unit circle between two special points. Next to one of them rounding decides
     /// on which side its multiplier is, so they are counted midway.
     fn outside_between(&self, behind: &Point, before: &Point) -> Option<usize> {
         let apart = self.distance(behind, before) > 0.0;
@@ -127,7 +127,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
         let best = match (test.value(a), test.value(b)) {
             (Some(before), Some(behind)) if behind.abs() < before.abs() => b,
             // A grazing orbit is the one without the additional switches.
-            (None, _) if switches(b) < switches(a) => b,
+            (None, _) if b.orbit.switch_count() < a.orbit.switch_count() => b,
             _ => a,
         };
         let other = if std::ptr::eq(best, a) { b } else { a };
@@ -145,10 +145,10 @@ impl<F: Family + ?Sized> Path<'_, F> {
     }
 }
 
-/// What a search remembers.
+/// Memory of a search.
 #[derive(Default)]
 pub(crate) struct Aim {
-    /// Which end moved last, and how often in a row.
+    /// The end that moved last, and how often in a row.
     last: Option<(usize, i32)>,
     /// The points without the additional switches, each with its touch.
     pub(crate) quiet: Vec<(Point, f64)>,

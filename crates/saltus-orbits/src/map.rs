@@ -1,9 +1,8 @@
-//! The hinge between whatever moves and the questions asked of it: a map that depends on parameters.
+//! A map that depends on parameters: the hinge between a motion and the questions asked of it.
 
-/// Derivatives and other dense matrices.
-pub type Matrix = faer::Mat<f64>;
+use crate::matrix::Matrix;
 
-/// Where a trajectory is at the section: modes and state together; neither means anything alone.
+/// A point of a trajectory at the section: modes and state together; neither means anything alone.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Place {
     /// Mode of each unit that switches; empty for a map without any.
@@ -17,54 +16,54 @@ pub struct Place {
 pub struct Shot<'a> {
     /// Value of each parameter.
     pub parameters: &'a [f64],
-    /// Where to begin.
+    /// First state.
     pub start: &'a Place,
     /// Whether the derivative and what happens on the way are wanted too.
     pub derivative: bool,
 }
 
-/// What the map makes of a place.
+/// The image of a place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
-    /// Where it leads.
+    /// The place it leads to.
     pub place: Place,
     /// d(image)/d(start), n x n, if it was asked for.
     pub derivative: Option<Matrix>,
     /// Switches on the way, in time order, if the derivative was asked for.
     pub crossings: Vec<Crossing>,
-    /// Where a guard came to an extremum without a switch, if the derivative was asked for.
+    /// Extrema of guards without a switch, if the derivative was asked for.
     pub touches: Vec<Touch>,
 }
 
 /// A switch on the way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// Which unit.
+    /// Unit that switches.
     pub unit: usize,
     /// The mode left.
     pub from: usize,
     /// The mode entered.
     pub to: usize,
-    /// When, as a part of the way from start to image, in (0, 1].
+    /// Time, as a part of the way from start to image, in (0, 1].
     pub at: f64,
 }
 
 /// An extremum of a guard that stayed on its side: at grazing its value is zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Touch {
-    /// Which unit.
+    /// Unit whose guard it is.
     pub unit: usize,
     /// The mode it was in.
     pub mode: usize,
-    /// Which of the guards of that mode.
+    /// Number of the guard within that mode.
     pub guard: usize,
     /// Value of the guard there; positive, since the mode lasts.
     pub value: f64,
-    /// When, as a part of the way from start to image.
+    /// Time, as a part of the way from start to image.
     pub at: f64,
 }
 
-/// Why there is no image.
+/// Reason why there is no image.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Lost {

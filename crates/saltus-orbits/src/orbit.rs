@@ -1,40 +1,20 @@
 //! Periodic orbits of a map and their Floquet multipliers.
 
+use crate::events::{Switch, switches};
 use crate::kept::{Kept, kept};
 use crate::linear::{self, minus, size};
+use crate::map::{Crossing, Family, Place, Touch};
+use crate::matrix::Matrix;
+use crate::newton::{NewtonOptions, NotFound};
 use crate::shooting::{Guess, Pass, Shooting};
-use crate::{Crossing, Family, Lost, Matrix, Place, Touch};
 
 /// Two places of an orbit nearer than this, relative to the largest state or 1, are one place: a residual
 /// at the default tolerance leaves places uncertain by less, except within 1e-13 of a period doubling.
 const SAME: f64 = 1e-7;
 
-/// A multiplier so near to 1 may be that of a quantity that is kept: where its equations are singular, Newton's method
+/// A multiplier so near to 1 may be that of a kept quantity: there the equations are singular, and Newton's method
 /// comes to an orbit with half of the digits only.
 const NEAR_ONE: f64 = 1e-3;
-
-/// How orbits are solved for.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NewtonOptions {
-    /// Largest component of P(x_i) - x_(i+1), relative to the largest state or 1. The default is what flows
-    /// solved to 1e-13 can reach.
-    pub tolerance: f64,
-    /// Newton steps at most; from a good guess it takes 3 to 5.
-    pub iterations: usize,
-    /// Into how many pieces an orbit is cut, from 1 to its period. `None` cuts at every iterate, which is the
-    /// least sensitive and lets all shots run side by side.
-    pub segments: Option<usize>,
-}
-
-impl Default for NewtonOptions {
-    fn default() -> Self {
-        Self {
-            tolerance: 1e-11,
-            iterations: 18,
-            segments: None,
-        }
-    }
-}
 
 /// An eigenvalue of the derivative of the map once around an orbit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +23,7 @@ pub struct Multiplier {
     pub re: f64,
     /// Imaginary part.
     pub im: f64,
-    /// How far it may be off: the accuracy of the derivative ([`NewtonOptions::tolerance`] of each iterate) times the
+    /// Bound on its error: the accuracy of the derivative ([`NewtonOptions::tolerance`] of each iterate) times the
     /// condition of the eigenvalue.
     pub error: f64,
 }
@@ -54,7 +34,7 @@ impl Multiplier {
         self.re.hypot(self.im)
     }
 
-    /// How far from 1 it is.
+    /// Its distance from 1.
     fn off_one(self) -> f64 {
         (self.re - 1.0).hypot(self.im)
     }
@@ -72,8 +52,8 @@ pub enum Stability {
     Stable,
     /// Some lie outside.
     Unstable,
-    /// None lies outside, and some are so near to the circle that rounding says on which side: at a bifurcation, or
-    /// where a quantity is conserved, which makes a multiplier 1.
+    /// None lies outside, and some are so near to the circle that rounding decides on which side: at a bifurcation, or
+    /// with a conserved quantity, which makes a multiplier 1.
     Neutral,
 }
 
@@ -110,7 +90,7 @@ pub struct Orbit {
     pub monodromy: Matrix,
     /// Switches on the way from each place to the next, in time order.
     pub crossings: Vec<Vec<Crossing>>,
-    /// Where a guard came to an extremum without a switch on the way from each place to the next.
+    /// Extrema of guards without a switch on the way from each place to the next.
     pub touches: Vec<Vec<Touch>>,
     /// Largest component of P(x_i) - x_(i+1).
     pub residual: f64,
@@ -124,7 +104,7 @@ impl Orbit {
         self.places.len()
     }
 
-    /// How many multipliers lie outside the unit circle, by more than their errors.
+    /// Number of multipliers outside the unit circle, by more than their errors.
     pub fn outside(&self) -> usize {
         let grows = |m: &&Multiplier| m.modulus() - 1.0 > m.error;
         self.multipliers.iter().filter(grows).count()
@@ -154,6 +134,30 @@ impl Orbit {
         self.multipliers.iter().any(one)
     }
 
+    /// All switches of one period in time order.
+    pub(crate) fn switches(&self) -> Vec<Switch> {
+        self.crossings
+            .iter()
+            .flat_map(|all| switches(all))
+            .collect()
+    }
+
+    /// Number of switches in one period.
+    pub(crate) fn switch_count(&self) -> usize {
+        self.crossings.iter().map(Vec::len).sum()
+    }
+
+    /// The touch with the smallest value, among those that `counts` lets through, and its iterate.
+    pub(crate) fn nearest_touch(
+        &self,
+        counts: impl Fn(usize, &Touch) -> bool,
+    ) -> Option<(usize, Touch)> {
+        let all = self.touches.iter().enumerate();
+        all.flat_map(|(iterate, touches)| touches.iter().map(move |touch| (iterate, *touch)))
+            .filter(|(iterate, touch)| touch.value.is_finite() && counts(*iterate, touch))
+            .min_by(|a, b| a.1.value.total_cmp(&b.1.value))
+    }
+
     /// The orbit of a converged pass, unless its derivative overflows. Derivatives of one iterate are as accurate as
     /// `tolerance`.
     pub(crate) fn of(pass: &Pass, tolerance: f64) -> Result<Self, NotFound> {
@@ -167,7 +171,7 @@ impl Orbit {
             });
         };
         let off = tolerance * pass.growth();
-        let (size, power) = (monodromy.norm_l2(), 1.0 / values.len() as f64);
+        let (size, power) = (linear::whole_norm(&monodromy), 1.0 / values.len() as f64);
         // where the condition says nothing, the bound of Elsner (1985)
         let most = (2.0 * size + off).powf(1.0 - power) * off.powf(power);
         let mut multipliers: Vec<Multiplier> = values
@@ -202,81 +206,11 @@ impl Orbit {
     }
 }
 
-/// Why there is no orbit. Each says how far Newton's method came.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum NotFound {
-    /// No place to begin with.
-    #[error("an orbit needs one place per iterate, and none was given")]
-    NoPlaces,
-    /// A start that is no state of the map.
-    #[error("place {place} of the start must hold {dimension} finite numbers")]
-    BadPlace {
-        /// Which, from 0.
-        place: usize,
-        /// Length of a state.
-        dimension: usize,
-    },
-    /// The residual stopped falling, or fell too slowly.
-    #[error(
-        "Newton's method came to a residual of {residual:.1e} in {iterations} steps and no further; \
-         try a start nearer to the orbit"
-    )]
-    NotConverged {
-        /// Steps taken.
-        iterations: usize,
-        /// Largest component of P(x_i) - x_(i+1).
-        residual: f64,
-        /// The last guess.
-        places: Vec<Place>,
-    },
-    /// The equations for a step have no unique solution.
-    #[error(
-        "the equations of Newton's method are singular at a residual of {residual:.1e}: \
-         a fold or a branch point is near, or the derivative overflows"
-    )]
-    Singular {
-        /// Largest component of P(x_i) - x_(i+1).
-        residual: f64,
-        /// The last guess.
-        places: Vec<Place>,
-    },
-    /// The map keeps a quantity, and an orbit with the value of the start was not found.
-    #[error(
-        "orbits lie in a family, since a quantity is kept along each motion, and none was found with the value that \
-         it has at the start; try a start nearer to the orbit"
-    )]
-    OtherMember {
-        /// An orbit with another value.
-        places: Vec<Place>,
-    },
-    /// The map has no image there.
-    #[error("Newton's method left the map at a residual of {residual:.1e}: {reason}")]
-    Lost {
-        /// What the map said.
-        reason: Lost,
-        /// Largest component of P(x_i) - x_(i+1); infinite at the start.
-        residual: f64,
-        /// The last guess that has images, or the start.
-        places: Vec<Place>,
-    },
-}
-
-impl NotFound {
-    /// Whether the work was stopped from outside.
-    pub(crate) fn is_stop(&self) -> bool {
-        let Self::Lost { reason, .. } = self else {
-            return false;
-        };
-        *reason == Lost::Interrupted
-    }
-}
-
 /// The periodic orbit near `start`, which has one place per iterate.
 ///
 /// Newton's method with multiple shooting; a step is cut as long as it makes the residual grow. The
 /// orbit has the shortest period: a start of four places that leads to a 2-cycle gives two. The first
-/// place of the orbit is the one near `start[0]`. Where orbits lie in a family, since the map keeps a quantity, it is
+/// place of the orbit is the one near `start[0]`. If orbits lie in a family, since the map keeps a quantity, it is
 /// the one with the value of the start: exactly if the quantity is quadratic, else to first order in the distance
 /// between the two. Modes of a start that contradict the motion are replaced.
 ///
@@ -310,7 +244,7 @@ pub fn find_orbit<F: Family + ?Sized>(
         Err(NotFound::Singular { places, .. }) => places,
         _ => return first,
     };
-    // Of a family the member is meant that has what is kept from the start.
+    // The member of a family that is meant has the kept value of the start.
     let linear = || {
         let slope = plain(family, options, &[])
             .pass(&guess(places))
@@ -366,7 +300,7 @@ pub(crate) fn check<F: Family + ?Sized>(family: &F, start: &[Place]) -> Result<(
     }
 }
 
-/// After how many iterates the places repeat.
+/// Number of iterates after which the places repeat.
 pub(crate) fn shortest_period(places: &[Place]) -> usize {
     let n = places.len();
     let scale = places.iter().map(|p| size(&p.x)).fold(1.0, f64::max);

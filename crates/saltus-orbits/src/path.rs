@@ -1,9 +1,10 @@
 //! The curve that a branch is: points on it, tangents, chords.
 
 use crate::continuation::{Along, ContinuationError, ContinuationOptions, Point};
+use crate::differences::Free;
 use crate::linear::{self, minus, norm, unit};
 use crate::orbit::check;
-use crate::shooting::{Change, Free, Guess, Pass, Shooting};
+use crate::shooting::{Change, Guess, Pass, Shooting};
 use crate::{Family, Matrix, NotFound, Orbit};
 
 /// Two branches cross where the equations lose a rank to within this. Derivatives by differences have errors of
@@ -123,7 +124,7 @@ impl<'a, F: Family + ?Sized> Path<'a, F> {
             stable: orbit.stable(),
             outside: orbit.outside(),
             spread: pass.spread(&tangent).ok_or_else(singular)?,
-            side: linear::determinant(&bordered),
+            side: bordered.determinant(),
             tangent,
             orbit,
         })

@@ -1,25 +1,25 @@
-//! Has a motion settled, on a cycle of which period? Decided on samples at the section.
+//! Periods of motions that have settled, by samples at the section.
 //!
-//! With d_k = |x_k - x_(k-n)| the distance of a sample from the one n periods before, D is the largest
+//! Let d_k = |x_k - x_(k-n)| be the distance of a sample from the one n periods before, D the largest
 //! d_k of the last block of samples and D' that of the block before. A motion that settles on a cycle
-//! whose length divides n contracts by some q = D/D' per block, so by q^(n/block) per return, and what is
-//! still to come is at most the geometric series
+//! whose length divides n contracts by some q = D/D' per block, so by q^(n/block) per return, and the
+//! rest of the transient is at most the geometric series
 //!
 //! ```text
 //! r_n = D q^(n/block) / (1 - q^(n/block)).
 //! ```
 //!
 //! The motion has period n if r_n is small and n is the shortest such: for every divisor m of n the
-//! samples m periods apart must lie further apart than what is still to come can explain, and stay so. So
+//! samples m periods apart must lie further apart than that rest can explain, and stay so. So
 //! an alternating approach to a fixed point, whose every second sample hardly moves, is not called a 2-cycle.
-//! Where D is no longer above the noise of the integration it does not shrink either, and r_n = D. Then the
-//! split, the smallest of those distances, is all that tells n from a divisor. One that is narrow must have
-//! kept its width in everything that is remembered; and whoever can should ask Newton's method, since a
+//! A D that is no longer above the noise of the integration does not shrink either, and r_n = D. Then the
+//! split, the smallest of those distances, is all that separates n from a divisor. A narrow one must have
+//! kept its width in all samples that are remembered; ask Newton's method too if you can, since a
 //! multiplier near -1 narrows it more slowly than any number of samples shows ([`OnCycle::is_sure`]).
 //!
 //! A motion whose returns are small, but visibly shrink or grow over four blocks in a row, or hardly change
 //! from one to the next, is [`Recurrence::Drifting`]: still coming to a cycle, or leaving an unstable one. Near
-//! a bifurcation this is the honest answer after any finite number of periods. A torus narrower than
+//! a bifurcation this is the right answer after any finite number of periods. A torus narrower than
 //! about 0.05 eta may be taken for such a drift.
 
 use crate::Recurrence;
@@ -33,10 +33,10 @@ const BLOCK: usize = 16;
 /// Distances below this are noise of the integration (in the units of the samples, eta).
 const NOISE: f64 = 1e-9;
 
-/// What is still to come must be this many times smaller than the distance that tells two periods apart.
+/// The rest of a transient must be this many times smaller than the distance that separates two periods.
 const APART: f64 = 10.0;
 
-/// Distances that tell two periods apart keep this part of themselves from block to block.
+/// Distances that separate two periods keep this part of themselves from block to block.
 const STAYS: f64 = 0.99;
 
 /// Cycles whose samples lie closer together than this (eta) are one: integration leaves as much.
@@ -57,7 +57,7 @@ const VISIBLE: f64 = 0.97;
 const SLOW: f64 = 0.02;
 const STEADY: f64 = 0.1;
 
-/// How much of a transient may be left.
+/// Bounds on the rest of a transient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closeness {
     /// Largest distance of a return (eta).
@@ -84,15 +84,15 @@ impl Closeness {
 pub struct OnCycle {
     /// Period of the cycle.
     pub period: u32,
-    /// Bound of what is still to come of the transient (eta).
+    /// Bound on the rest of the transient (eta).
     pub rest: f64,
     /// The smallest distance (eta) between samples that a shorter period would make equal; infinite for period 1.
     pub split: f64,
 }
 
 impl OnCycle {
-    /// Whether samples alone tell the period: next to nothing is left of the transient, and no part of the cycle comes
-    /// near to repeating. That the cycle is stable they tell only of a motion that came from far away.
+    /// Whether samples alone prove the period: next to nothing is left of the transient, and no part of the cycle comes
+    /// near to repeating. They prove that the cycle is stable only for a motion that came from far away.
     pub fn is_sure(&self) -> bool {
         self.rest <= Closeness::TIGHT.rest && self.split > WIDE
     }
@@ -114,10 +114,10 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// How many are kept: four blocks of 56 and one return of the longest period.
+    /// Number of samples kept: four blocks of 56 and one return of the longest period.
     pub const ROWS: usize = 256;
 
-    /// Of `width` numbers each, in units of eta.
+    /// No samples yet, of `width` numbers each, in units of eta.
     pub fn new(width: usize) -> Self {
         Self {
             width,
@@ -197,7 +197,7 @@ impl Samples {
     }
 
     /// Periods after which each of the last samples, a block of them, comes back within `limit`: the shortest first, and
-    /// of longer ones those whose returns are nearer than any before. Where a motion comes to a cycle, its period is
+    /// of longer ones those whose returns are nearer than any before. The period of a cycle that the motion comes to is
     /// among them.
     pub fn returns(&self, limit: f64) -> Vec<usize> {
         let mut nearest = limit;
@@ -269,7 +269,7 @@ impl Samples {
         largest <= SLOW && (0..block).all(steady)
     }
 
-    /// What the samples say when there is no more time.
+    /// The verdict on the samples when there is no more time.
     pub fn judge(&self) -> Recurrence {
         match self.settled(Closeness::FAIR) {
             Some(found) => found.into(),
@@ -279,7 +279,7 @@ impl Samples {
     }
 }
 
-/// Those below `n`.
+/// Divisors of `n` below it.
 fn divisors(n: usize) -> impl Iterator<Item = usize> {
     (1..n).filter(move |m| n.is_multiple_of(*m))
 }

@@ -4,12 +4,12 @@ use crate::linear::{minus, size};
 use crate::{Family, MAX_PERIOD, NewtonOptions, Orbit, Place, Shot, Stability, find_orbit};
 
 /// A motion that comes back nearer than this, relative to the largest state or 1, has come to a cycle or is on its last
-/// way to one: how it gets there is told by the multipliers alone.
+/// way to one: the multipliers alone decide how it gets there.
 const NEAR: f64 = 1e-5;
 
 /// The orbit of up to [`MAX_PERIOD`] iterates that the motion is on at `place`, if it is on one that is not unstable.
 ///
-/// Whoever asks has seen that deviations die out: on a chaotic attractor it takes all these iterates to say no.
+/// Ask when deviations have been seen to die out: on a chaotic attractor it takes all these iterates to find none.
 pub fn settled<F: Family + ?Sized>(family: &F, parameters: &[f64], place: &Place) -> Option<Orbit> {
     let mut places = vec![place.clone()];
     for _ in 0..MAX_PERIOD {

@@ -8,29 +8,22 @@
 //! d_(i+1) = A_i d_i + C_i dp + g_i,
 //! ```
 //!
-//! so one pass around the orbit leaves n equations for d_1 and dp, whatever the number of segments. Inside
+//! so one pass around the orbit leaves n equations for d_1 and dp, for any number of segments. Inside
 //! a segment the gaps are zero. Shots of all segments, and those for C by differences, are asked together.
 
-use crate::differences::{DIFFERENCE, moved};
+use crate::differences::{DIFFERENCE, Free, moved, slope};
 use crate::events::switches;
 use crate::kept::Kept;
-use crate::linear::{self, minus, plus, size, times};
-use crate::{Family, Image, Lost, Matrix, NewtonOptions, NotFound, Place, Shot};
+use crate::linear::{self, minus, plus, size, times, whole_norm};
+use crate::map::{Family, Image, Lost, Place, Shot};
+use crate::matrix::Matrix;
+use crate::newton::{NewtonOptions, NotFound};
 
-/// A step is cut in halves at most so often.
+/// Halvings of a step at most.
 const HALVINGS: usize = 6;
 
 /// A residual that no longer falls counts as rounding below this multiple of the tolerance.
 const STAGNATION: f64 = 100.0;
-
-/// A parameter that may change.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Free {
-    /// Its place among the parameters.
-    pub(crate) index: usize,
-    /// The unit it is measured in where it stands beside states.
-    pub(crate) unit: f64,
-}
 
 /// The equations of an orbit.
 pub(crate) struct Shooting<'a, F: ?Sized> {
@@ -69,9 +62,9 @@ impl Guess {
 /// A change of an orbit and of the free parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Change {
-    /// Of each place.
+    /// Change of each place.
     pub(crate) x: Vec<Vec<f64>>,
-    /// Of each free parameter, in its unit.
+    /// Change of each free parameter, in its unit.
     pub(crate) free: Vec<f64>,
 }
 
@@ -102,11 +95,11 @@ impl Pass {
     /// The derivative of the whole way round at the first place, M, and that by the free parameters.
     pub(crate) fn around(&self) -> Option<(Matrix, Columns)> {
         let n = self.places[0].x.len();
-        let mut m = Matrix::identity(n, n);
+        let mut m = Matrix::identity(n);
         let mut columns = vec![vec![0.0; n]; self.columns[0].len()];
         for i in 0..self.places.len() {
             let a = self.derivative(i)?;
-            m = a * &m;
+            m = linear::product(a, &m);
             for (column, by) in columns.iter_mut().zip(&self.columns[i]) {
                 *column = plus(&times(a, column), 1.0, by);
             }
@@ -127,7 +120,7 @@ impl Pass {
         }))
     }
 
-    /// What a change of the first place and of the free parameters, side by side, does to all places;
+    /// Change of all places by that of the first one and of the free parameters, side by side;
     /// `gaps` times the gaps are added on the way. The last change is that of the place after the last.
     fn carried(&self, first: &[f64], gaps: f64) -> Option<(Change, Vec<f64>)> {
         let (start, free) = first.split_at(self.places[0].x.len());
@@ -148,10 +141,10 @@ impl Pass {
         Some(self.carried(tangent, 0.0)?.0)
     }
 
-    /// By how much errors of single derivatives, relative to their sizes, may change that of the whole way round.
+    /// Factor by which errors of single derivatives, relative to their sizes, may change that of the whole way round.
     pub(crate) fn growth(&self) -> f64 {
         let n = self.places[0].x.len();
-        let (mut growth, mut before) = (0.0, Matrix::identity(n, n));
+        let (mut growth, mut before) = (0.0, Matrix::identity(n));
         let derivatives: Vec<&Matrix> = self
             .images
             .iter()
@@ -159,14 +152,14 @@ impl Pass {
             .collect();
         // products of all that come after each
         let mut after = vec![1.0];
-        let mut product = Matrix::identity(n, n);
+        let mut product = Matrix::identity(n);
         for a in derivatives.iter().skip(1).rev() {
-            product = &product * *a;
-            after.push(product.norm_l2());
+            product = linear::product(&product, a);
+            after.push(whole_norm(&product));
         }
         for (a, after) in derivatives.iter().zip(after.into_iter().rev()) {
-            growth += after * a.norm_l2() * before.norm_l2();
-            before = *a * &before;
+            growth += after * whole_norm(a) * whole_norm(&before);
+            before = linear::product(a, &before);
         }
         growth
     }
@@ -175,7 +168,7 @@ impl Pass {
     pub(crate) fn best_kept(&self) -> Option<Vec<f64>> {
         let (m, _) = self.around()?;
         let equations = linear::shifted(&m, 1.0);
-        linear::null_space(&equations.transpose().to_owned(), 1)?.pop()
+        linear::null_space(&equations.transposed(), 1)?.pop()
     }
 
     /// Newton's step to where some quantities have their values.
@@ -391,7 +384,7 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
             for free in self.free {
                 let both =
                     [answers.next(), answers.next()].map(|answer| answer.unwrap_or_else(missing));
-                columns.push(self.slope(&shot, &image, free, &both)?);
+                columns.push(slope(self.family, &shot, &image, free, &both)?);
             }
             all.push((image, columns));
         }
@@ -399,7 +392,7 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
     }
 }
 
-/// Nothing beyond a pass.
+/// The failure of a step from a pass, which leads out of the map.
 fn lost(pass: &Pass) -> impl Fn(Lost) -> NotFound {
     |reason| NotFound::Lost {
         reason,

@@ -1,8 +1,9 @@
 //! The surface that orbits form over two parameters, and a function on it that is zero on a curve.
 
 use crate::continuation::ContinuationOptions;
+use crate::differences::Free;
 use crate::linear::{self, dot, norm, plus, scaled};
-use crate::shooting::{Change, Free, Pass, Shooting};
+use crate::shooting::{Change, Pass, Shooting};
 use crate::{Family, Multiplier, NotFound, Orbit, SpecialKind, events};
 
 /// Grazing is approached to this value of the guard, since there is no value beyond zero.
@@ -67,13 +68,13 @@ impl<F: Family + ?Sized> Surface<'_, F> {
         let off = |mu: &Multiplier| before.map_or(0.0, |b| (mu.re - b.re).hypot(mu.im - b.im));
         let upper = orbit.multipliers.iter().filter(|mu| mu.im > 0.0).copied();
         let pair = upper.min_by(|a, b| off(a).total_cmp(&off(b)));
-        let determinant = |mu| linear::determinant(&linear::shifted(&orbit.monodromy, mu));
+        let determinant = |mu| linear::shifted(&orbit.monodromy, mu).determinant();
         let psi = match self.kind {
             SpecialKind::Fold => Some(determinant(1.0)),
             SpecialKind::PeriodDoubling => Some(determinant(-1.0)),
             SpecialKind::NeimarkSacker { .. } => pair.map(|mu| mu.modulus() - 1.0),
             SpecialKind::Grazing { unit } => {
-                let touch = events::nearest_touch(&orbit, |_, touch| touch.unit == unit);
+                let touch = orbit.nearest_touch(|_, touch| touch.unit == unit);
                 touch.map(|(_, touch)| touch.value - TOUCHING)
             }
             _ => None,
@@ -101,15 +102,15 @@ impl<F: Family + ?Sized> Surface<'_, F> {
         })?;
         let guess = base.orbit.guess().moved(&self.free, 1.0, &change);
         let mut spot = self.spot(self.shooting().correct(&guess, along)?, base.pair)?;
-        let [here, there] = [&base.orbit, &spot.orbit].map(events::sequence);
-        // With other switches it is another guard, or another of its minima, that is nearest.
+        let [here, there] = [&base.orbit, &spot.orbit].map(Orbit::switches);
+        // Other switches mean that another guard, or another of its minima, is nearest.
         if self.has_sides() && !events::same(&here, &there) {
             spot.psi = None;
         }
         Ok(spot)
     }
 
-    /// Whether psi exists to one side of the curve only.
+    /// Whether psi exists on one side of the curve only.
     pub(crate) fn has_sides(&self) -> bool {
         matches!(self.kind, SpecialKind::Grazing { .. })
     }
@@ -121,7 +122,7 @@ impl<F: Family + ?Sized> Surface<'_, F> {
         let here = spot.psi?;
         let slope = |offset: [f64; 2]| {
             let sides = [DIFFERENCE, -DIFFERENCE].into_iter();
-            // A touch has a value to one side only.
+            // A touch has a value on one side only.
             sides
                 .filter_map(|h| {
                     let there = self.lifted(&spot, &plane, offset.map(|o| h * o)).ok()?;

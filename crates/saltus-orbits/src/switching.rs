@@ -1,22 +1,22 @@
-//! From a special point to the other branches that meet there.
+//! Other branches that meet at a special point.
 
 use crate::continuation::Point;
+use crate::detect::flip;
 use crate::linear::{self, dot, plus, scaled, unit};
 use crate::locate::NARROW;
 use crate::path::Path;
 use crate::shooting::Guess;
-use crate::special::flip;
 use crate::{Family, Orbit, Special, find_orbit};
 
 /// Steps of the secant method at most.
 const SECANT: usize = 12;
 
-/// How far aside, as a part of the range, the secant method looks for its slope: a halving is known to
+/// Offset, as a part of the range, at which the secant method looks for its slope: a halving is known to
 /// some 1e-7.
 const ASIDE: f64 = 1e-4;
 
 impl<F: Family + ?Sized> Path<'_, F> {
-    /// Where the branch of twice the period begins: the orbit taken twice, with the tangent (v, -v) in its two
+    /// First point of the branch of twice the period: the orbit taken twice, with the tangent (v, -v) in its two
     /// halves, where v is the eigenvector of the multiplier -1.
     pub(crate) fn doubled(&self, special: &Special) -> Option<Point> {
         let mut tangent = linear::eigenvector(&special.orbit.monodromy, -1.0)?;
@@ -37,7 +37,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
         Some(aside(&seed).or_else(back).unwrap_or(seed))
     }
 
-    /// Puts a halving where it is known best: at the period doubling on the branch of half the period, found there
+    /// Moves a halving to where it is known best: the period doubling on the branch of half the period, found there
     /// by the secant method. It stays where it was if that is not near.
     pub(crate) fn at_doubling(&self, special: &mut Special) {
         let range = self.range[1] - self.range[0];
@@ -85,8 +85,8 @@ impl<F: Family + ?Sized> Path<'_, F> {
         find_orbit(self.family, &parameters, half, newton).ok()
     }
 
-    /// Where the other branch through a branch point begins: of the plane of directions in which the equations
-    /// hold to first order, that one normal to the branch at hand. The other branch has a part of it, and the
+    /// First point of the other branch through a branch point, along the direction normal to the branch at hand in the
+    /// plane of directions in which the equations hold to first order. The other branch has a part of it, and the
     /// corrector finds the rest.
     pub(crate) fn crossed(&self, special: &Special) -> Option<Point> {
         self.birth(&special.orbit.guess(), |equations| {

@@ -1,14 +1,14 @@
-//! Where a guard that is only touched on one side of a special point comes to zero.
+//! Location of a grazing: a guard that is only touched on one side of it comes to zero.
 
 use crate::continuation::Point;
 use crate::locate::{Aim, NARROW, ROUNDS};
 use crate::path::Path;
-use crate::{Family, events};
+use crate::{Family, Orbit, events};
 
 impl<F: Family + ?Sized> Path<'_, F> {
-    /// Where between two points the guard that tells their switches apart comes to zero: its value on the
-    /// side without the switches is extrapolated, alternately a little further and less far, so that
-    /// the bracket shrinks from both sides. Every third round bisects, whatever the values say.
+    /// Part of the way between two points at which the guard that makes their switches differ comes to zero: its value on
+    /// the side without the switches is extrapolated, alternately a little further and less far, so that
+    /// the bracket shrinks from both sides. Every third round bisects in any case.
     pub(crate) fn touching(
         &self,
         a: &Point,
@@ -16,11 +16,11 @@ impl<F: Family + ?Sized> Path<'_, F> {
         aim: &mut Aim,
         round: usize,
     ) -> Option<f64> {
-        let [first, second] = [&a.orbit, &b.orbit].map(events::sequence);
+        let [first, second] = [&a.orbit, &b.orbit].map(Orbit::switches);
         let units = events::units_apart(&first, &second);
-        let forwards = switches(a) < switches(b);
+        let forwards = a.orbit.switch_count() < b.orbit.switch_count();
         let quiet = if forwards { a } else { b };
-        let touch = events::nearest_touch(&quiet.orbit, |_, t| units.contains(&t.unit))?.1;
+        let touch = quiet.orbit.nearest_touch(|_, t| units.contains(&t.unit))?.1;
         if aim.quiet.last().is_none_or(|(last, _)| last != quiet) {
             aim.quiet.push((quiet.clone(), touch.value));
         }
@@ -34,19 +34,19 @@ impl<F: Family + ?Sized> Path<'_, F> {
         (part > 0.0 && part < 1.0).then_some(part)
     }
 
-    /// Where no orbits are found between two points, moves the one without the additional switches along its
-    /// tangent to where its touch comes to zero.
+    /// Moves the point without the additional switches along its tangent to where its touch comes to zero, if no orbits
+    /// are found between two points.
     pub(crate) fn approach(&self, a: &mut Point, b: &mut Point) {
-        let [first, second] = [&a.orbit, &b.orbit].map(events::sequence);
+        let [first, second] = [&a.orbit, &b.orbit].map(Orbit::switches);
         let units = events::units_apart(&first, &second);
         let width = self.distance(a, b);
-        let (quiet, sign) = if switches(a) < switches(b) {
+        let (quiet, sign) = if a.orbit.switch_count() < b.orbit.switch_count() {
             (a, 1.0)
         } else {
             (b, -1.0)
         };
         let touch = |point: &Point| {
-            let touch = events::nearest_touch(&point.orbit, |_, t| units.contains(&t.unit));
+            let touch = point.orbit.nearest_touch(|_, t| units.contains(&t.unit));
             touch.map(|(_, touch)| touch.value)
         };
         let mut step = 1e-3 * width;
@@ -57,7 +57,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
                 .moved(&self.free, sign * step, &quiet.spread);
             let next = self.solve(&guess, &quiet.tangent, &quiet.tangent);
             let next = next.ok().filter(|next| {
-                let [before, now] = [&quiet.orbit, &next.orbit].map(events::sequence);
+                let [before, now] = [&quiet.orbit, &next.orbit].map(Orbit::switches);
                 events::same(&before, &now)
             });
             let values = next
@@ -76,9 +76,4 @@ impl<F: Family + ?Sized> Path<'_, F> {
             }
         }
     }
-}
-
-/// Number of switches of an orbit.
-pub(crate) fn switches(point: &Point) -> usize {
-    point.orbit.crossings.iter().map(Vec::len).sum()
 }

@@ -1,4 +1,4 @@
-//! One walk along a branch: predict along the tangent, correct, look what happened on the way, choose the
+//! One walk along a branch: predict along the tangent, correct, look for special points on the way, choose the
 //! step.
 
 use crate::continuation::{Branch, End, Point};
@@ -9,7 +9,7 @@ use crate::path::Path;
 use crate::special::{Special, SpecialKind};
 use crate::{Family, Multiplier, events};
 
-/// The corrector stays within so many steps of the prediction, or it may have found another branch.
+/// The corrector stays within this many steps of the prediction, or it may have found another branch.
 const NEAR: f64 = 2.0;
 
 /// Newton steps that let the next step of the branch grow, and that make it shrink.
@@ -25,7 +25,7 @@ const AT_TOUCH: f64 = 1e-9;
 /// The part of the way to a touch that one step covers.
 const APPROACH: f64 = 0.95;
 
-/// On the first step of a branch from its birth the critical multiplier moves by less than this.
+/// The critical multiplier moves by less than this on the first step of a branch from its birth.
 const BORN: f64 = 0.3;
 
 /// Points before a branch may close.
@@ -51,24 +51,13 @@ impl<F: Family + ?Sized> Path<'_, F> {
         };
         let mut step = self.options.initial;
         branch.ends[1] = loop {
-            let last = &branch.points[branch.points.len() - 1];
-            if !go_on {
-                break End::Interrupted;
-            }
-            if branch.points.len() >= self.options.points.max(1) {
-                break End::PointLimit;
-            }
-            let behind = branch.points.iter().rev();
-            if behind.take_while(|point| !point.stable).count() > self.options.unstable {
-                break End::Unstable;
-            }
-            if self.leaves(last) {
-                break End::RangeEnd;
+            if let Some(end) = self.limit(&branch.points, go_on) {
+                break end;
             }
             let mut closed = false;
             let point = match self.seen(&branch.points, born.is_some(), step) {
                 Ok((point, specials)) => {
-                    step = self.next_step(last, &point, step);
+                    step = self.next_step(&branch.points[branch.points.len() - 1], &point, step);
                     branch.specials.extend(specials);
                     let meets = |s: &Special| s.kind == SpecialKind::Halving;
                     if branch.specials.last().is_some_and(meets) {
@@ -77,29 +66,13 @@ impl<F: Family + ?Sized> Path<'_, F> {
                     closed = self.back_at(born, &mut branch.specials);
                     point
                 }
-                Err(obstacle) => match self.shorter(&branch.points, step, &obstacle) {
-                    Shorter::End => match self.further(&branch.points, obstacle) {
-                        Ok((point, next, special)) => {
-                            branch.specials.extend(special);
-                            step = next;
-                            point
-                        }
-                        Err(end) => break end,
-                    },
-                    Shorter::Step(shorter) => {
-                        step = shorter;
-                        continue;
-                    }
-                    Shorter::Grazing(unit, ahead) => {
-                        let behind = self.beyond(last, ahead);
-                        let special = self.grazing(&branch.points, unit, ahead, behind.as_ref());
-                        branch.specials.push(special);
-                        let Some(point) = behind else {
-                            break End::Grazing;
-                        };
-                        step = self.onwards(last, &point);
+                Err(obstacle) => match self.past(&mut branch, step, obstacle) {
+                    Ok((next, from_there)) => {
+                        step = from_there;
+                        let Some(point) = next else { continue };
                         point
                     }
+                    Err(end) => break end,
                 },
             };
             closed = closed || self.closed(&branch.points, &point);
@@ -110,6 +83,48 @@ impl<F: Family + ?Sized> Path<'_, F> {
             }
         };
         branch
+    }
+
+    /// The end of a branch that goes no further than these points.
+    fn limit(&self, points: &[Point], go_on: bool) -> Option<End> {
+        let unstable = points.iter().rev().take_while(|point| !point.stable);
+        if !go_on {
+            Some(End::Interrupted)
+        } else if points.len() >= self.options.points.max(1) {
+            Some(End::PointLimit)
+        } else if unstable.count() > self.options.unstable {
+            Some(End::Unstable)
+        } else if self.leaves(&points[points.len() - 1]) {
+            Some(End::RangeEnd)
+        } else {
+            None
+        }
+    }
+
+    /// Passes an obstacle: a point behind it and the step from there, or no point and a shorter step to try.
+    fn past(
+        &self,
+        branch: &mut Branch,
+        step: f64,
+        obstacle: End,
+    ) -> Result<(Option<Point>, f64), End> {
+        match self.shorter(&branch.points, step, &obstacle) {
+            Shorter::Step(shorter) => Ok((None, shorter)),
+            Shorter::Grazing(unit, ahead) => {
+                let last = &branch.points[branch.points.len() - 1];
+                let behind = self.beyond(last, ahead);
+                let special = self.grazing(&branch.points, unit, ahead, behind.as_ref());
+                branch.specials.push(special);
+                let point = behind.ok_or(End::Grazing)?;
+                let next = self.onwards(last, &point);
+                Ok((Some(point), next))
+            }
+            Shorter::End => {
+                let (point, next, special) = self.further(&branch.points, obstacle)?;
+                branch.specials.extend(special);
+                Ok((Some(point), next))
+            }
+        }
     }
 
     /// The point `step` ahead and the special points before it, up to one where the branch ends.
@@ -134,8 +149,8 @@ impl<F: Family + ?Sized> Path<'_, F> {
         Ok((point, specials))
     }
 
-    /// Beyond an obstacle that stays with the smallest step, if it is the sampling instant or a grazing: the next
-    /// point, the step from there, and what lies in between.
+    /// Passes an obstacle that stays with the smallest step, if it is the sampling instant or a grazing: the next
+    /// point, the step from there, and the special point in between.
     fn further(
         &self,
         points: &[Point],
@@ -148,7 +163,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
         if let Some(point) = self.across_instant(last) {
             return Ok((point, self.options.initial, None));
         }
-        // From the side with the switches no touch tells that a grazing is near.
+        // No touch announces a grazing from the side with the switches.
         let beyond = self.beyond(last, 0.0).filter(|_| points.len() > 1);
         if let Some(point) = beyond
             && let Some(special) = self.gap(last, &point, points.len() - 1)
@@ -199,19 +214,16 @@ impl<F: Family + ?Sized> Path<'_, F> {
             guess.parameters[self.free[0].index] = edge;
             point = self.solve(&guess, &self.upwards(), &point.tangent)?;
         }
-        // At a kink, and at a birth close to one, the corrector finds the orbit of half the period as easily.
+        // The corrector finds the orbit of half the period as easily at a kink, and at a birth close to one.
         if shortest_period(&point.orbit.places) < point.orbit.period() {
             return Err(End::StepTooSmall);
         }
-        if events::same(
-            &events::sequence(&last.orbit),
-            &events::sequence(&point.orbit),
-        ) {
+        if events::same(&last.orbit.switches(), &point.orbit.switches()) {
             if angle(&last.tangent, &point.tangent) > self.options.angle {
                 return Err(End::StepTooSmall);
             }
         } else if dot(&point.tangent, &self.apart(last, &point)) < 0.0 {
-            // Where the map has a kink so has the branch, and its old direction says little.
+            // A kink of the map is one of the branch, and the old direction is worth little there.
             point = point.reversed();
         }
         Ok(point)
@@ -230,7 +242,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
         (factor * step).clamp(self.options.smallest, self.options.largest)
     }
 
-    /// What to do about an obstacle.
+    /// The response to an obstacle.
     fn shorter(&self, points: &[Point], step: f64, obstacle: &End) -> Shorter {
         match self.to_touch(points) {
             _ if *obstacle == End::Interrupted => Shorter::End,
@@ -275,14 +287,14 @@ impl<F: Family + ?Sized> Path<'_, F> {
 
 enum Shorter {
     Step(f64),
-    /// Of a unit, so far ahead.
+    /// A unit grazes at this distance ahead.
     Grazing(usize, f64),
     End,
 }
 
 /// Angle between two unit vectors.
 fn angle(a: &[f64], b: &[f64]) -> f64 {
-    // From the chord: the cosine says nothing about small angles.
+    // The chord is used since the cosine hardly changes at small angles.
     2.0 * (norm(&minus(a, b)) / 2.0).min(1.0).asin()
 }
 

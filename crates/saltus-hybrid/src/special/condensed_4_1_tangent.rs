@@ -1,7 +1,7 @@
 //! Written by `cargo run --release -p saltus --example specialise`; not to be edited.
 
 #[allow(unused_imports)]
-use super::{products, squares_and_products, term};
+use super::sums::{products, squares_and_products, term};
 use crate::arith::Arith;
 
 pub(super) const KEY: u64 = 0xc371d699460a002a;
@@ -22,7 +22,7 @@ pub(super) fn expand<A: Arith>(a: A, c: &[A::Cell], kept: &mut [A::Cell]) {
     first[61] = first[21];
     first[62] = first[22];
     first[63] = first[23];
-order::<A, true>(a, c, &[], first, next, a.splat(1.0));
+    order::<A, true>(a, c, &[], first, next, a.splat(1.0));
     let last = rows.len() - 1;
     for k in 1..last {
         let (past, rest) = rows.split_at_mut(k);

@@ -1,12 +1,12 @@
-//! The mean of a correlated series, with an error that is honest about the correlation.
+//! The mean of a correlated series, with an error that includes the correlation.
 
 use super::student::{quantile, student};
 
-/// Batches of a series, or a few more of a short one: few and long. Ten to thirty are enough for an interval [Schmeiser 1982], and the longer
-/// they are, the slower may what they average be.
+/// Batches of a series, or a few more of a short one: few and long. Ten to thirty are enough for an interval
+/// [Schmeiser 1982], and longer ones average over slower changes.
 const BATCHES: usize = 20;
 
-/// Parts of each batch whose own spread tells how fast the error still grows with the length of a batch.
+/// Parts of each batch: their own spread shows how fast the error still grows with the length of a batch.
 const PARTS: usize = 3;
 
 /// Correlation that is made up for at most: beyond it the record is too short for any error.
@@ -21,15 +21,15 @@ pub struct Exponent {
     /// Standard error of that (1 / iterate), what rounding does included: infinite if there are fewer than 20
     /// iterates, 0 for -inf.
     pub standard_error: f64,
-    /// How many batches it is from, which has one degree of freedom less; 0 where there is no error, or where it
-    /// is none of chance (from an orbit).
+    /// Number of batches of the error, which has one degree of freedom less; 0 without an error, or if it is none
+    /// of chance (from an orbit).
     pub batches: usize,
     /// Iterates in each.
     pub batch_length: usize,
 }
 
 impl Exponent {
-    /// How probable it is that the true value is positive, by Student's t with one degree of freedom less
+    /// Probability that the true value is positive, by Student's t with one degree of freedom less
     /// than there are batches. `noise` is the error of the growth itself (1 / iterate), which no record sees.
     pub fn positive(&self, noise: f64) -> f64 {
         if self.per_iterate == f64::NEG_INFINITY {
@@ -42,8 +42,8 @@ impl Exponent {
 
     /// The interval that holds the true value with a probability of 0.95, by Student's t.
     ///
-    /// It does as long as the record is longer than some tens of times in which the motion forgets where it was;
-    /// what changes more slowly than that no record shows.
+    /// It does if the record is longer than some tens of times in which the motion forgets where it was;
+    /// a slower change is beyond any record.
     pub fn interval(&self) -> [f64; 2] {
         let half = quantile(0.975, self.freedom()) * self.standard_error;
         [self.per_iterate - half, self.per_iterate + half]
@@ -66,7 +66,7 @@ impl Exponent {
 /// batches of a third of the length is the smaller one by what a batch misses, so twice the variance from whole ones
 /// less that from thirds misses it no longer [Vats & Flegal 2022, Biometrika 109, 735]. And where neighbouring batches
 /// are correlated by r, the error grows by sqrt((1 + r)/(1 - r)), right for a correlation that decays geometrically.
-/// Where growth now makes up for growth before, as on a torus, the error is too large.
+/// The error is too large if growth now makes up for growth before, as on a torus.
 pub(super) fn mean(series: &[Vec<f64>], noise: f64) -> Exponent {
     let count: usize = series.iter().map(Vec::len).sum();
     let sum: f64 = series.iter().map(|one| sum(one)).sum();
@@ -101,7 +101,7 @@ pub(super) fn mean(series: &[Vec<f64>], noise: f64) -> Exponent {
     }
 }
 
-/// In two stages: rounding errors of one long sum of equal terms would add up.
+/// The sum in two stages: rounding errors of one long sum of equal terms would add up.
 fn sum(series: &[f64]) -> f64 {
     let parts = series.chunks(256).map(|part| part.iter().sum::<f64>());
     parts.sum()
@@ -121,17 +121,17 @@ fn means(series: &[Vec<f64>], length: usize) -> Vec<f64> {
     means
 }
 
-/// How the means of batches differ.
+/// Spread of the means of batches.
 struct Spread {
-    /// Of the mean of all of them, if they were independent.
+    /// Variance of the mean of all of them, if they were independent.
     variance: f64,
-    /// Of neighbours, relative to their variance.
+    /// Correlation of neighbours, relative to their variance.
     correlation: f64,
     count: usize,
 }
 
 impl Spread {
-    /// Of batches of `parts` means each.
+    /// The spread of batches of `parts` means each.
     fn of(means: &[f64], parts: usize) -> Self {
         let whole = means.chunks_exact(parts);
         let mut means: Vec<f64> = whole
@@ -153,7 +153,7 @@ impl Spread {
         }
     }
 
-    /// By how much the correlation of neighbours makes the variance larger, if it is more than half of what chance
+    /// Factor by which the correlation of neighbours makes the variance larger, if it is more than half of what chance
     /// makes of none (a standard deviation of 1/sqrt(batches)).
     fn for_correlation(&self) -> f64 {
         let r = self.correlation.min(LARGEST);

@@ -21,7 +21,7 @@ impl Weighted {
     }
 }
 
-/// Over independent series: the mean of their means by their lengths.
+/// The average over independent series: the mean of their means by their lengths.
 pub(super) fn weighted(series: &[Vec<f64>]) -> Weighted {
     let count: usize = series.iter().map(Vec::len).sum();
     let parts = series.iter().map(|one| average(one) * one.len() as f64);

@@ -111,7 +111,7 @@ mod tests {
     }
 
     proptest! {
-        /// However thin the parallelepiped, and whatever its scale.
+        /// Holds for a parallelepiped of any thinness and scale.
         #[test]
         fn columns_leave_orthonormal(
             entries in prop::collection::vec(-1.0_f64..1.0, 12),

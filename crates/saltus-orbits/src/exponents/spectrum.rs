@@ -1,4 +1,4 @@
-//! The record of stretching factors, and what follows from it.
+//! The record of stretching factors, and the exponents that follow from it.
 
 use super::ExponentError;
 use super::batches::{self, Exponent};
@@ -9,16 +9,16 @@ use crate::Orbit;
 /// Points of [`Spectrum::convergence`] at most.
 const POINTS: usize = 150;
 
-/// Columns that part by more than this in one go (ln of the ratio of what is left of them) leave too little of the
-/// shorter ones, and what is aimed at when a period is cut into parts: rounding then costs some five units.
+/// Columns that part by more than the first in one go (ln of the ratio of what is left of them) leave too little of
+/// the shorter ones. Parts of a period are cut for the second: rounding then costs some five units.
 const APART: f64 = 8.0;
 const AIM: f64 = 4.0;
 
-/// A multiplier that tells an exponent to this tells it better than a record does, whatever that claims: a record that
-/// ends within a cycle does not see it.
+/// An exponent known to this from a multiplier is better than one from any record, even if that claims less: a record
+/// that ends within a cycle does not see it.
 const RESOLVED: f64 = 1e-6;
 
-/// Into how many parts a period is cut at most: more than any step needs.
+/// Parts of a period at most: more than any step needs.
 const MOST_PARTS: u32 = 1 << 16;
 
 /// A direction that is lost in such a part of a period with a switch in it, is lost by the switch.
@@ -26,7 +26,7 @@ const SWITCH: u32 = 8;
 
 /// Collects how tangent columns stretch along a trajectory, iterate by iterate.
 ///
-/// It knows no map: whoever moves the state moves the columns with it and feeds them here after each iterate.
+/// It knows no map: move the columns along with the state, and feed them here after each iterate.
 /// Eight bytes for each column and iterate are kept.
 ///
 /// ```
@@ -54,18 +54,18 @@ const SWITCH: u32 = 8;
 pub struct Spectrum {
     dimension: usize,
     columns: usize,
-    /// Of each trajectory: ln of the factors of the first iterate, column by column, then of the next. The
+    /// ln of the factors, for each trajectory: those of the first iterate, column by column, then of the next. The
     /// last trajectory is the one that is fed.
     runs: Vec<Vec<f64>>,
     /// The same of the iterate under way.
     open: Vec<f64>,
     /// Error of the columns, relative to the longest one, at each handing over.
     noise: f64,
-    /// Into how many parts a period is cut; 0 for a map, whose derivative may have no inverse.
+    /// Parts of a period; 0 for a map, whose derivative may have no inverse.
     parts: u32,
-    /// How far columns have parted in one go.
+    /// Largest distance by which columns have parted in one go.
     apart: f64,
-    /// What `noise` makes of the logarithms: their errors, added up, column by column; in the record and in the
+    /// Errors of the logarithms by `noise`, added up, column by column; in the record and in the
     /// iterate under way.
     errors: Vec<f64>,
     open_errors: Vec<f64>,
@@ -80,17 +80,17 @@ pub struct Dimension {
     pub standard_error: f64,
 }
 
-/// What the first iterates of a record say.
+/// Exponents from the first iterates of a record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Running {
-    /// How many of them, of each trajectory.
+    /// Number of these iterates, of each trajectory.
     pub iterates: usize,
     /// The exponents from these alone.
     pub exponents: Vec<Exponent>,
 }
 
 impl Spectrum {
-    /// For the `columns` largest exponents of a map in `dimension` dimensions.
+    /// An empty record for the `columns` largest exponents of a map in `dimension` dimensions.
     ///
     /// # Errors
     /// [`ExponentError::Columns`] unless there are 1 to `dimension` columns.
@@ -117,7 +117,7 @@ impl Spectrum {
     ///
     /// # Errors
     /// As [`Self::new`].
-    pub fn of_flow(
+    pub(crate) fn of_flow(
         dimension: usize,
         columns: usize,
         parts: u32,
@@ -153,12 +153,16 @@ impl Spectrum {
         Ok(())
     }
 
-    /// As [`Self::feed`] within an iterate, as after a part of a period; `switched` says whether there was a switch in
+    /// Takes the columns within an iterate, as after a part of a period; `switched` is whether there was a switch in
     /// this part. [`Self::close`] ends the iterate.
     ///
     /// # Errors
     /// As [`Self::feed`].
-    pub fn part(&mut self, columns: &mut [f64], switched: bool) -> Result<(), ExponentError> {
+    pub(crate) fn part(
+        &mut self,
+        columns: &mut [f64],
+        switched: bool,
+    ) -> Result<(), ExponentError> {
         let (got, want) = (columns.len(), self.dimension * self.columns);
         if got != want {
             return Err(ExponentError::Length { got, want });
@@ -188,7 +192,7 @@ impl Spectrum {
     }
 
     /// Ends an iterate, and records it or not.
-    pub fn close(&mut self, record: bool) {
+    pub(crate) fn close(&mut self, record: bool) {
         if let Some(run) = self.runs.last_mut().filter(|_| record) {
             run.append(&mut self.open);
             for (sum, error) in self.errors.iter_mut().zip(&self.open_errors) {
@@ -199,9 +203,9 @@ impl Spectrum {
         self.open_errors = vec![0.0; self.columns];
     }
 
-    /// Into how many parts each period must be cut, if columns have parted by more than rounding allows. What was
-    /// recorded is worth nothing then: begin anew. `outgrown` says that columns have left the range of numbers.
-    pub fn needs_parts(&self, outgrown: bool) -> Option<u32> {
+    /// Parts that each period must be cut into, if columns have parted by more than rounding allows. The record is
+    /// worth nothing then: begin anew. `outgrown` is whether columns have left the range of numbers.
+    pub(crate) fn needs_parts(&self, outgrown: bool) -> Option<u32> {
         let apart = if outgrown { f64::INFINITY } else { self.apart };
         if apart <= APART || self.parts == 0 || self.parts >= MOST_PARTS {
             return None;
@@ -219,7 +223,7 @@ impl Spectrum {
     }
 
     /// Puts the record of another trajectory on the same attractor before the one that is fed, and behind those put
-    /// there earlier. Pieces of one long trajectory belong in their order: it tells what changes slowly.
+    /// there earlier. Pieces of one long trajectory belong in their order: slow changes show in it.
     ///
     /// # Errors
     /// [`ExponentError::Unlike`] if dimension or columns differ.
@@ -242,8 +246,8 @@ impl Spectrum {
         self.runs.iter().map(Vec::len).sum::<usize>() / self.columns
     }
 
-    /// The exponents of a motion that has come to a cycle: those of its multipliers, where these tell them better than
-    /// the record does. A record is off by what is left of the transient and by the part of a period that it begins or
+    /// The exponents of a motion that has come to a cycle: those of its multipliers, where they are more accurate than
+    /// the record. A record is off by the rest of the transient and by the part of a period that it begins or
     /// ends with, and turns a complex pair into two that wander about their mean.
     pub fn on_cycle(&self, orbit: &Orbit) -> Vec<Exponent> {
         let period = orbit.period() as f64;
@@ -293,7 +297,7 @@ impl Spectrum {
     /// The dimension of Kaplan & Yorke (1979): with j the most exponents whose sum S is not negative,
     /// j + S / |lambda_(j+1)|.
     ///
-    /// A sum that cannot be told from zero, being less than two standard errors below, counts as zero: an
+    /// A sum less than two standard errors below zero counts as zero: an
     /// invariant circle has dimension 1. A sink has 0; a map that contracts no volume has that of its state.
     /// `None` if more exponents would be needed than the record has, or the record is too short for errors.
     pub fn kaplan_yorke(&self) -> Option<Dimension> {
@@ -332,7 +336,7 @@ impl Spectrum {
         }
     }
 
-    /// What the first iterates say, at up to 150 counts in equal ratios: the figure that shows convergence.
+    /// Exponents from the first iterates, at up to 150 counts in equal ratios: the figure that shows convergence.
     pub fn convergence(&self) -> Vec<Running> {
         let longest = self.runs.iter().map(Vec::len).max().unwrap_or(0) / self.columns;
         let at = |i: usize| (longest as f64).powf(i as f64 / POINTS as f64).round() as usize;
@@ -367,7 +371,7 @@ impl Spectrum {
             .collect()
     }
 
-    /// That of one column, from the first iterates.
+    /// The exponent of one column, from the first iterates.
     fn exponent(&self, j: usize, iterates: usize) -> Exponent {
         let noise = self.errors[j] / self.iterates().max(1) as f64;
         batches::mean(&self.series(iterates, |row| row[j]), noise)
@@ -379,7 +383,7 @@ impl Spectrum {
         batches::mean(&sum, self.noise(count))
     }
 
-    /// What rounding does to the sum of the first exponents.
+    /// Error of the sum of the first exponents by rounding.
     fn noise(&self, count: usize) -> f64 {
         self.errors[..count].iter().sum::<f64>() / self.iterates().max(1) as f64
     }
