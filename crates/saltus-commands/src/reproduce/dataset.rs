@@ -6,8 +6,8 @@ use crate::dataset::{about, coordinate, name, numbered, padded, texts, variable}
 use crate::failure::Failure;
 use saltus::physics::{ContactLaw, FrequencyReference};
 use saltus::study::Pass;
-use saltus::study::paper::Diagram;
 use saltus_config::{Parameter, Study};
+use saltus_paper::Diagram;
 use saltus_results::{Dataset, Variable};
 
 /// The panels in the paper's law and the occupied reading.

@@ -1,7 +1,7 @@
 //! The numbers behind the figures as CSV.
 
 use saltus::study::Pass;
-use saltus::study::paper::{Diagram, Met, PanelBranches};
+use saltus_paper::{Diagram, Met, PanelBranches};
 use saltus_results::Value;
 
 use super::Results;
