@@ -3,7 +3,7 @@
 //! Three layers, each knowing only those above it in this list:
 //! - [`physics`] holds SI records and formulas, and integrates nothing;
 //! - [`model`] makes them nondimensional equations of motion for the engine, [`hybrid`];
-//! - [`study`] asks them questions: trajectories, sweeps, the paper.
+//! - [`study`] asks them questions: trajectories, sweeps, attractors, orbits, exponents.
 //!
 //! ```
 //! use saltus::model::Setup;

@@ -1,6 +1,6 @@
 //! Why the transitions of Fig. 2 are where they are: branches, special points, exponents.
 
-use saltus::study::paper::{Detail, Diagram, PanelExponents, Transition};
+use saltus_paper::{Detail, Diagram, PanelExponents, Transition};
 use saltus_results::{Axis, Branches, Colour, Curves, Figure, Panel};
 
 use super::Results;

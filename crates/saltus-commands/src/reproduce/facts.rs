@@ -1,6 +1,6 @@
 //! The findings as text, Markdown and JSON. No times and no machine: equal input gives equal bits.
 
-use saltus::study::paper::{Bound, Edge};
+use saltus_paper::{Bound, Edge};
 use saltus_results::{MarkdownTable, Value};
 use serde::Serialize;
 
@@ -103,9 +103,8 @@ pub(super) fn symbols(text: &str) -> String {
 
 impl Report {
     pub(super) fn new(results: &Results) -> Self {
-        let contact = |row: &saltus::study::paper::InertiaRow| {
-            (row.contact_ratio.0 - row.contact_ratio.1).abs()
-        };
+        let contact =
+            |row: &saltus_paper::InertiaRow| (row.contact_ratio.0 - row.contact_ratio.1).abs();
         Self {
             program: "saltus",
             version: env!("CARGO_PKG_VERSION"),
@@ -195,7 +194,7 @@ impl Report {
 }
 
 impl CaseRow {
-    fn new(result: &saltus::study::paper::CaseResult) -> Self {
+    fn new(result: &saltus_paper::CaseResult) -> Self {
         let case = result.case;
         Self {
             figure: format!("3{}", case.tag),

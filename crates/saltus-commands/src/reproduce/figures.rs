@@ -2,7 +2,7 @@
 
 use saltus::physics::{ContactLaw, FrequencyReference};
 use saltus::study::Pass;
-use saltus::study::paper::{CaseResult, Diagram, InertiaRow, RATIOS};
+use saltus_paper::{CaseResult, Diagram, InertiaRow, RATIOS};
 use saltus_results::{Axis, Cloud, Figure, History, Panel, Portrait};
 
 use super::Results;

@@ -11,10 +11,10 @@ use std::sync::Arc;
 
 use saltus::hybrid::Method;
 use saltus::physics::FrequencyReference::{Free, Occupied};
-use saltus::study::paper::{
-    self, CaseResult, Diagram, Effort, InertiaComparison, Misprint, PanelBranches, PanelExponents,
-};
 use saltus::study::{Control, StudyError};
+use saltus_paper::{
+    CaseResult, Diagram, Effort, InertiaComparison, Misprint, PanelBranches, PanelExponents,
+};
 
 use crate::answer::{Answer, stream_json};
 use crate::context::Context;
@@ -33,7 +33,7 @@ struct Results {
     branches: Vec<PanelBranches>,
     exponents: Vec<PanelExponents>,
     cases: Vec<CaseResult>,
-    facts: Vec<paper::Fact>,
+    facts: Vec<saltus_paper::Fact>,
     misprints: Vec<Misprint>,
     inertia: InertiaComparison,
 }
@@ -90,25 +90,25 @@ fn compute(quick: bool, context: &Context) -> Result<Results, Failure> {
     let mut fast = control.clone();
     fast.options.method = DIAGRAMS;
     let diagrams = step.run("Fig. 2", effort.diagram_periods(), || {
-        paper::diagrams(&effort, &fast)
+        saltus_paper::diagrams(&effort, &fast)
     })?;
     let case_periods = effort.case_periods();
     let cases = step.run("Fig. 3", case_periods, || {
-        paper::run_cases(Occupied, &effort, &control)
+        saltus_paper::run_cases(Occupied, &effort, &control)
     })?;
     let free = step.run("Fig. 3, free", case_periods, || {
-        paper::run_cases(Free, &effort, &control)
+        saltus_paper::run_cases(Free, &effort, &control)
     })?;
     let exponents = step.run("Exponents", effort.panel_periods(), || {
-        paper::panel_exponents(&diagrams, &effort, &fast)
+        saltus_paper::panel_exponents(&diagrams, &effort, &fast)
     })?;
     let branches = step.run("Branches", 0, || {
-        paper::panel_branches(&diagrams, &effort, &control)
+        saltus_paper::panel_branches(&diagrams, &effort, &control)
     })?;
-    let facts = step.run("Facts", 0, || paper::facts(&cases, &free, &branches))?;
-    let misprints = step.run("Misprints", 0, || paper::misprints(&control))?;
+    let facts = step.run("Facts", 0, || saltus_paper::facts(&cases, &free, &branches))?;
+    let misprints = step.run("Misprints", 0, || saltus_paper::misprints(&control))?;
     let inertia = step.run("Full model", effort.inertia_periods(), || {
-        paper::compare_inertia(&effort, &control)
+        saltus_paper::compare_inertia(&effort, &control)
     })?;
     Ok(Results {
         study: Study::paper(),

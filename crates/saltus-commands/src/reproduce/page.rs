@@ -1,7 +1,7 @@
 //! The result folder: figures, tables and the page that shows them.
 
 use saltus::physics::FrequencyReference::{Free, Occupied};
-use saltus::study::paper::Verdict;
+use saltus_paper::Verdict;
 use saltus_results::{Fact, Figure, FigureBlock, Image, Page, Verdict as Badge};
 
 use super::data::came_to;

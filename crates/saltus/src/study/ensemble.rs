@@ -1,9 +1,9 @@
 //! What all studies share: how to run, how to stop, how to report progress, what can go wrong.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use saltus_hybrid::{IntegrateError, Options, on_threads};
+use saltus_hybrid::{IntegrateError, Options};
 use saltus_orbits::ExponentError;
 
 use crate::model::ModelError;
@@ -25,28 +25,6 @@ impl Control {
     pub(crate) fn count_period(&self) {
         self.done.fetch_add(1, Ordering::Relaxed);
     }
-}
-
-/// `f` of each item, spread over threads (0: as many as the machine has), in the order of the items.
-pub(crate) fn in_parallel<I: Sync, O: Send>(
-    items: &[I],
-    threads: usize,
-    f: impl Fn(&I) -> O + Sync,
-) -> Vec<O> {
-    let next = AtomicUsize::new(0);
-    let work = |_| {
-        let take = || {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            items.get(index).map(|item| (index, item))
-        };
-        std::iter::from_fn(take)
-            .map(|(index, item)| (index, f(item)))
-            .collect::<Vec<_>>()
-    };
-    let found = on_threads(threads, items.len(), work);
-    let mut out: Vec<(usize, O)> = found.into_iter().flatten().collect();
-    out.sort_by_key(|(index, _)| *index);
-    out.into_iter().map(|(_, value)| value).collect()
 }
 
 /// Why a study has no answer.

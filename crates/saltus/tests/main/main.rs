@@ -1,8 +1,7 @@
-//! Integration tests: equations, studies and the paper, against closed forms and other programs.
+//! Integration tests: equations and studies, against closed forms and other programs.
 #![allow(clippy::unwrap_used)]
 
 mod attractors;
-mod dias_del_prado;
 mod independent;
 mod lineages;
 mod many_modes;

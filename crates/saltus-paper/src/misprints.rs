@@ -3,10 +3,11 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use super::setup;
-use crate::model::{Contact, GRAVITY, Inertia, PreparedPlate};
-use crate::physics::{ContactLaw, FrequencyReference, Jumper, Mode, Plate};
-use crate::study::{Control, StudyError, simulate};
+use saltus::model::{Contact, GRAVITY, Inertia, PreparedPlate};
+use saltus::physics::{ContactLaw, FrequencyReference, Jumper, Mode, Plate};
+use saltus::study::{Control, StudyError, simulate};
+
+use crate::setting::setup;
 
 /// One place where the paper cannot mean what it prints.
 #[derive(Clone, Debug, PartialEq)]

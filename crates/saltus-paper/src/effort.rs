@@ -1,32 +1,6 @@
-//! The paper, complete: every figure and statement of Dias & Del Prado, with our numbers beside it,
-//! and what the paper does not show: other contact laws, full against condensed, the misprints' size.
+//! The work that is spent on the paper: as printed results need it, or a quick look.
 
-mod branches;
-mod cases;
-mod diagrams;
-mod exponents;
-mod facts;
-mod inertia;
-mod misprints;
-mod stretches;
-
-pub use branches::{Detail, Drawn, PanelBranches, Transition, panel_branches};
-pub use cases::{Case, CaseResult, cases, run_cases};
-use diagrams::REPEATS;
-pub use diagrams::{Diagram, Met, diagrams};
-pub use exponents::{PanelExponents, panel_exponents};
-pub use facts::{Fact, Verdict, facts};
-pub use inertia::{InertiaComparison, InertiaRow, compare_inertia};
-pub use misprints::{Misprint, misprints};
-pub use stretches::{Bound, Edge, Stretch};
-
-use crate::model::{Inertia, Setup};
-use crate::physics::{Base, BaseFrequency, ContactLaw, FrequencyReference};
-
-/// Omega/omega_h of the panels a, b, c of Fig. 2.
-pub const RATIOS: [f64; 3] = [0.9, 1.0, 1.1];
-
-/// How much work to spend.
+/// Numbers of values, periods and starts; what each costs is said by methods beside the work.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Effort {
     /// Damping ratios in a bifurcation diagram, from 0.1 to 0.5.
@@ -103,45 +77,5 @@ impl Effort {
             islands: 0,
             cascade_period: 8,
         }
-    }
-}
-
-impl Effort {
-    /// Periods of all diagrams, for a progress display.
-    pub fn diagram_periods(&self) -> u64 {
-        let paper = 2 * RATIOS.len() * (2 + self.starts.len()) * self.values;
-        let laws = 2 * RATIOS.len() * 2 * self.law_values;
-        (paper + laws) as u64 * (self.transient + self.record)
-    }
-
-    /// Periods of the cases of Fig. 3 under one reading.
-    pub fn case_periods(&self) -> u64 {
-        8 * (cases::TRANSIENT + cases::KEPT + self.exponent_periods + 100)
-    }
-
-    /// Periods of the comparison of full and condensed.
-    pub fn inertia_periods(&self) -> u64 {
-        (2 * RATIOS.len() * self.full_values) as u64 * (self.full_periods.0 + self.full_periods.1)
-    }
-}
-
-/// The paper's setup with its three open questions answered: damping ratio, frequency and contact law.
-pub(crate) fn setup(
-    damping_ratio: f64,
-    ratio: f64,
-    reference: FrequencyReference,
-    contact: ContactLaw,
-    inertia: Inertia,
-) -> Setup {
-    let setup = Setup::dias_del_prado(damping_ratio, ratio);
-    let frequency = BaseFrequency::Ratio { ratio, reference };
-    Setup {
-        base: Base {
-            frequency,
-            ..setup.base
-        },
-        contact,
-        inertia,
-        ..setup
     }
 }

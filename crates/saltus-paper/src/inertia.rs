@@ -1,11 +1,12 @@
 //! Full against condensed: what it costs to let the in-plane motion follow statically.
 
-use saltus_hybrid::Status;
+use saltus::hybrid::Status;
+use saltus::model::{Inertia, PreparedPlate};
+use saltus::physics::{ContactLaw, FrequencyReference, Plate};
+use saltus::study::{Control, Pass, StudyError, Sweep, SweepRow, recurrence, sweep_many};
 
-use super::{Effort, RATIOS, setup};
-use crate::model::{Inertia, PreparedPlate};
-use crate::physics::{ContactLaw, FrequencyReference, Plate};
-use crate::study::{Control, Pass, StudyError, Sweep, SweepRow, recurrence, sweep_many};
+use crate::effort::Effort;
+use crate::setting::{RATIOS, setup};
 
 /// Both models at one damping ratio of one panel, from the same start.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,6 +81,13 @@ pub fn compare_inertia(
         largest: differences.iter().copied().fold(0.0, f64::max),
         periodic: differences.len(),
     })
+}
+
+impl Effort {
+    /// Periods of the comparison of full and condensed, for a progress display.
+    pub fn inertia_periods(&self) -> u64 {
+        (2 * RATIOS.len() * self.full_values) as u64 * (self.full_periods.0 + self.full_periods.1)
+    }
 }
 
 fn compare(ratio: f64, full: &SweepRow, condensed: &SweepRow) -> InertiaRow {

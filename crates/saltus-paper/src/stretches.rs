@@ -5,7 +5,7 @@
 //! cycle stays on it, however slowly transients die. Near its ends they take thousands of periods, so a sweep
 //! is no measure of where a cycle begins and ends.
 
-use saltus_orbits::{Branch, End, Limb, Orbit, Special, SpecialKind};
+use saltus::orbits::{Branch, End, Limb, Orbit, Special, SpecialKind};
 
 /// Two bounds are one special point if they are nearer: it is located to far less.
 const SAME: f64 = 1e-7;
@@ -74,7 +74,7 @@ impl Stretch {
     }
 
     /// Whether a section lies on this cycle at a damping ratio where it is stable.
-    pub(super) fn holds(&self, damping_ratio: f64, z: &[f64], v: &[f64]) -> bool {
+    pub(crate) fn holds(&self, damping_ratio: f64, z: &[f64], v: &[f64]) -> bool {
         let Some(places) = self
             .section(damping_ratio)
             .filter(|_| self.covers(damping_ratio))
@@ -118,7 +118,7 @@ fn doubled<'a>(all: &'a [Stretch], at: &Bound, period: usize) -> Option<&'a Stre
 
 /// From the longest stretch at the highest damping downwards: each has twice the period of the one before, and begins
 /// where that one ends.
-pub(super) fn cascade(all: &[Stretch]) -> Vec<&Stretch> {
+pub(crate) fn cascade(all: &[Stretch]) -> Vec<&Stretch> {
     let highest = |a: &&Stretch, b: &&Stretch| {
         let [a, b] = [a, b].map(|one| (one.to.damping_ratio, one.width()));
         a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
@@ -134,7 +134,7 @@ pub(super) fn cascade(all: &[Stretch]) -> Vec<&Stretch> {
 
 /// Cycles that are not born by doubling, with all that are born from them so: period, lowest and highest damping
 /// ratio of each family, by falling damping ratio.
-pub(super) fn families(all: &[Stretch]) -> Vec<(usize, [f64; 2])> {
+pub(crate) fn families(all: &[Stretch]) -> Vec<(usize, [f64; 2])> {
     let gives = |mother: &Stretch, one: &Stretch| {
         let ends = [&mother.from, &mother.to];
         ends.iter().any(|end| one.begins(end, mother.period))
@@ -163,7 +163,7 @@ pub(super) fn families(all: &[Stretch]) -> Vec<(usize, [f64; 2])> {
 }
 
 /// Adds the stretches of `limbs` from number `first` on that are new. `section` gives the section of an orbit.
-pub(super) fn collect<E>(
+pub(crate) fn collect<E>(
     limbs: &[Limb],
     first: usize,
     section: impl Fn(&Orbit) -> Result<Vec<[f64; 2]>, E>,

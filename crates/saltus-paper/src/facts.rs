@@ -2,12 +2,14 @@
 
 use std::fmt::Write as _;
 
-use saltus_orbits::{MotionKind, SpecialKind};
+use saltus::orbits::{MotionKind, SpecialKind};
+use saltus::physics::{ContactLaw, FrequencyReference, Jumper, Plate};
+use saltus::study::StudyError;
 
-use super::stretches::{cascade, families};
-use super::{Bound, CaseResult, Edge, PanelBranches, RATIOS, Stretch};
-use crate::physics::{ContactLaw, FrequencyReference, Jumper, Plate};
-use crate::study::StudyError;
+use crate::branches::PanelBranches;
+use crate::cases::CaseResult;
+use crate::setting::RATIOS;
+use crate::stretches::{Bound, Edge, Stretch, cascade, families};
 
 /// What became of a statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,8 +60,8 @@ pub struct Fact {
 type Finding = (String, Verdict);
 type Find = fn(&Evidence<'_>) -> Finding;
 
-/// All facts. `occupied` and `free` are the results of [`super::run_cases`] under both readings, `branches` those of
-/// [`super::panel_branches`]. Every verdict on a regime rests on the stretches of `branches`: no sweep is asked.
+/// All facts. `occupied` and `free` are the results of [`crate::run_cases`] under both readings, `branches` those of
+/// [`crate::panel_branches`]. Every verdict on a regime rests on the stretches of `branches`: no sweep is asked.
 ///
 /// # Errors
 /// [`StudyError`] if there is no model of the paper's plate.

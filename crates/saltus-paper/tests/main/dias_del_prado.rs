@@ -1,12 +1,11 @@
 //! The statements of Dias & Del Prado, section 4 and abstract, as tests: what `saltus reproduce` says
 //! must not change without notice.
 
-use saltus::orbits::MotionKind;
-use saltus::orbits::SpecialKind;
+use saltus::orbits::{MotionKind, SpecialKind};
 use saltus::physics::ContactLaw;
 use saltus::physics::FrequencyReference::{Free, Occupied};
 use saltus::study::Control;
-use saltus::study::paper::{
+use saltus_paper::{
     Diagram, Edge, Effort, Fact, Met, PanelBranches, Stretch, Verdict, compare_inertia, diagrams,
     facts, misprints, panel_branches, run_cases,
 };

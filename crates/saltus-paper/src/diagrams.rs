@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
-use saltus_hybrid::Status;
+use saltus::hybrid::Status;
+use saltus::model::{Inertia, Model, ModelError, PreparedPlate};
+use saltus::physics::{ContactLaw, FrequencyReference, Plate};
+use saltus::study::{Control, Pass, StudyError, Sweep, SweepRow, recurrence, sweep_many};
 
-use super::{Effort, RATIOS, Stretch, setup};
-use crate::model::{Inertia, Model, ModelError, PreparedPlate};
-use crate::physics::{ContactLaw, FrequencyReference, Plate};
-use crate::study::{Control, Pass, StudyError, Sweep, SweepRow, recurrence, sweep_many};
+use crate::effort::Effort;
+use crate::setting::{RATIOS, setup};
+use crate::stretches::Stretch;
 
 /// One panel of Fig. 2 under one contact law and one reading of omega_h.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,7 +29,7 @@ pub struct Diagram {
 }
 
 /// Samples that repeat this closely (eta) may be on a cycle, or on a slow way to one.
-pub(super) const REPEATS: f64 = 1e-3;
+pub(crate) const REPEATS: f64 = 1e-3;
 
 /// All diagrams: the paper's law under both readings with every pass, the other two laws under the
 /// occupied reading with the up- and down-sweep, on their own coarser grid.
@@ -97,6 +99,15 @@ fn model_at(
 ) -> impl Fn(f64) -> Result<Model, ModelError> + Sync {
     let plate = Arc::clone(plate);
     move |zeta| setup(zeta, ratio, reference, law, Inertia::Condensed).model_on(&plate)
+}
+
+impl Effort {
+    /// Periods of all diagrams, for a progress display.
+    pub fn diagram_periods(&self) -> u64 {
+        let paper = 2 * RATIOS.len() * (2 + self.starts.len()) * self.values;
+        let laws = 2 * RATIOS.len() * 2 * self.law_values;
+        (paper + laws) as u64 * (self.transient + self.record)
+    }
 }
 
 impl Diagram {

@@ -1,9 +1,12 @@
 //! The largest Lyapunov exponent along each panel of Fig. 2.
 
-use super::{Diagram, Effort, RATIOS};
-use crate::physics::{ContactLaw, FrequencyReference};
-use crate::study::{Control, StudyError, growth};
-use saltus_orbits::Exponent;
+use saltus::orbits::Exponent;
+use saltus::physics::{ContactLaw, FrequencyReference};
+use saltus::study::{Control, StudyError, growth};
+
+use crate::diagrams::Diagram;
+use crate::effort::Effort;
+use crate::setting::RATIOS;
 
 /// The exponent of the motion on which the up-sweep ends, at each damping ratio of a panel.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,14 +1,14 @@
 //! Fig. 3: phase portraits and Poincare points of eight named cases.
 
-use saltus_hybrid::Point;
-use saltus_orbits::{Criteria, MotionKind, Recurrence, Verdict, judge};
+use saltus::hybrid::Point;
+use saltus::model::{Contact, Inertia, Model, Section};
+use saltus::orbits::{Criteria, MotionKind, Recurrence, Verdict, judge};
+use saltus::physics::{ContactLaw, FrequencyReference};
+use saltus::study::{Control, StudyError, Trajectory, growth, recurrence, settle, simulate};
 
-use super::{Effort, setup};
-use crate::model::{Contact, Inertia, Model, Section};
-use crate::physics::{ContactLaw, FrequencyReference};
-use crate::study::{
-    Control, StudyError, Trajectory, growth, in_parallel, recurrence, settle, simulate,
-};
+use crate::effort::Effort;
+use crate::parallel::in_parallel;
+use crate::setting::setup;
 
 /// One panel of Fig. 3.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -131,9 +131,9 @@ impl CaseResult {
 }
 
 /// Periods run before anything is kept: long, because (g) sits near a period doubling.
-pub(super) const TRANSIENT: u64 = 2000;
+const TRANSIENT: u64 = 2000;
 /// Periods kept in the section, and in the time history.
-pub(super) const KEPT: u64 = 600;
+const KEPT: u64 = 600;
 const HISTORY: u64 = 64;
 /// Points per period of the time history.
 const POINTS: u32 = 240;
@@ -203,4 +203,11 @@ pub fn run_cases(
         });
     }
     Ok(out)
+}
+
+impl Effort {
+    /// Periods of the cases of Fig. 3 under one reading, for a progress display.
+    pub fn case_periods(&self) -> u64 {
+        8 * (TRANSIENT + KEPT + self.exponent_periods + 100)
+    }
 }

@@ -2,20 +2,22 @@
 
 use std::sync::Arc;
 
-use saltus_hybrid::{Leg, Point as State, record};
-use saltus_orbits::{
+use saltus::hybrid::{Leg, Point as State, record};
+use saltus::model::{Inertia, Model, ModelError, PreparedPlate};
+use saltus::orbits::{
     Along, BranchesOptions, ContinuationOptions, Family, Limb, MotionKind, NewtonOptions, Orbit,
     Place, Point, SpecialKind, branches, find_orbit,
 };
-
-use super::stretches::collect;
-use super::{Diagram, Effort, Met, REPEATS, Stretch, setup};
-use crate::model::{Inertia, Model, ModelError, PreparedPlate};
-use crate::physics::{ContactLaw, FrequencyReference, Plate};
-use crate::study::{
+use saltus::physics::{ContactLaw, FrequencyReference, Plate};
+use saltus::study::{
     Control, Lineages, OrbitError, OrbitSearch, Search, Starts, StudyError, Sweep, follow,
     orbit_of, place, recurrence, second_opinion, sequence, settle, stroboscopic,
 };
+
+use crate::diagrams::{Diagram, Met, REPEATS};
+use crate::effort::Effort;
+use crate::setting::setup;
+use crate::stretches::{Stretch, collect};
 
 /// The scanned range of zeta_h.
 const ALONG: Along = Along {
@@ -393,7 +395,7 @@ impl Panel<'_> {
             Ok(orbit) => Ok(Some(orbit)),
             Err(OrbitError::Study(error)) => Err(error),
             Err(error) if error.is_interrupt() => {
-                Err(saltus_hybrid::IntegrateError::Interrupted.into())
+                Err(saltus::hybrid::IntegrateError::Interrupted.into())
             }
             Err(_) => Ok(None),
         }
@@ -401,7 +403,7 @@ impl Panel<'_> {
 
     fn stopped(&self) -> Result<(), StudyError> {
         match self.control.stop.load(std::sync::atomic::Ordering::Relaxed) {
-            true => Err(saltus_hybrid::IntegrateError::Interrupted.into()),
+            true => Err(saltus::hybrid::IntegrateError::Interrupted.into()),
             false => Ok(()),
         }
     }
