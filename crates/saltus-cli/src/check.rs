@@ -2,6 +2,7 @@
 
 use crate::args::WorkArgs;
 use crate::ending::Ending;
+use crate::load::load;
 use crate::output;
 use saltus_commands::{Context, Folder, describe, warnings};
 use saltus_config::Study;
@@ -18,7 +19,7 @@ struct Report<'a> {
 }
 
 pub(crate) fn run(args: &WorkArgs) -> Result<(), Ending> {
-    let study = crate::run::load(&args.study, &[])?;
+    let study = load(&args.study, &[])?;
     if let Some(out) = &args.output.out {
         Folder::stage(out, None, &study, &Context::default())?.commit()?;
     }

@@ -2,9 +2,9 @@
 
 use crate::args::{CiteArgs, RerunArgs};
 use crate::ending::Ending;
+use crate::interrupt;
+use crate::output::{self, tell};
 use crate::progress::Bars;
-use crate::run::tell;
-use crate::{interrupt, output};
 use saltus_commands::{Citation, Context, Kept, bibtex};
 use serde::Serialize;
 

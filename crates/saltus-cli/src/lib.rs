@@ -9,6 +9,7 @@ mod help;
 mod init;
 mod interrupt;
 mod kept;
+mod load;
 mod output;
 mod progress;
 mod run;

@@ -1,6 +1,7 @@
 //! Writing: standard output without panics, files whole or not at all.
 
 use crate::ending::Ending;
+use saltus_commands::Told;
 use saltus_results::shown::printable_lines;
 use serde::Serialize;
 use std::io::{self, BufWriter, Write};
@@ -14,6 +15,15 @@ pub(crate) fn print(text: &str) -> Result<(), Ending> {
 /// Writes one JSON document to standard output, piece by piece: it may be long.
 pub(crate) fn print_json(document: &impl Serialize) -> Result<(), Ending> {
     print_with(|stdout| stream_json(stdout, document))
+}
+
+/// One document, or a text for people, or nothing, as asked.
+pub(crate) fn tell(json: bool, quiet: bool, answer: &(impl Told + ?Sized)) -> Result<(), Ending> {
+    match (json, quiet) {
+        (true, _) => print_with(|stdout| answer.document(stdout)),
+        (false, true) => Ok(()),
+        (false, false) => print(&printable_lines(&answer.summary())),
+    }
 }
 
 /// Says something on standard error that is neither result nor failure.

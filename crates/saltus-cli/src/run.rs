@@ -2,18 +2,17 @@
 
 use crate::args::{
     BasinsArgs, Command, ContinueArgs, DividedArgs, OutputArgs, ReproduceArgs, SimulateArgs,
-    StudyArgs, ThreadArgs, WorkArgs,
+    ThreadArgs, WorkArgs,
 };
 use crate::ending::Ending;
+use crate::load::load;
+use crate::output::tell;
 use crate::progress::Bars;
 use crate::{check, init, interrupt, kept, output, schema};
 use saltus_commands::{
-    Answer, Context, Destination, Failure, Found, Keep, Labelled, Place, Request, Shard, Told,
+    Answer, Context, Destination, Failure, Found, Keep, Labelled, Place, Request, Shard,
 };
 use saltus_config::Study;
-use saltus_results::shown::printable_lines;
-use std::io;
-use std::path::Path;
 use std::time::Instant;
 
 /// Does what was asked.
@@ -194,24 +193,4 @@ fn answer(request: &Request, study: &Study, how: &How) -> Result<(), Ending> {
     }
     let shortfall = answer.shortfall();
     shortfall.map_or(Ok(()), |failure| Err(failure.into()))
-}
-
-/// One document, or a text for people, or nothing, as asked.
-pub(crate) fn tell(json: bool, quiet: bool, answer: &(impl Told + ?Sized)) -> Result<(), Ending> {
-    match (json, quiet) {
-        (true, _) => output::print_with(|stdout| answer.document(stdout)),
-        (false, true) => Ok(()),
-        (false, false) => output::print(&printable_lines(&answer.summary())),
-    }
-}
-
-/// Reads the study with its overrides; `more` are overrides that a command's own options stand for.
-pub(crate) fn load(args: &StudyArgs, more: &[String]) -> Result<Study, Ending> {
-    let sets = [args.sets.as_slice(), more].concat();
-    let study = if args.file == Path::new("-") {
-        saltus_config::read("standard input", io::stdin().lock(), &sets)
-    } else {
-        saltus_config::load(&args.file, &sets)
-    };
-    Ok(study.map_err(Failure::from)?)
 }

@@ -2,9 +2,8 @@
 
 use crate::Parameter;
 use crate::error::{StudyError, StudyErrorKind};
-use crate::structure::Fault;
+use crate::fault::{Fault, wrong};
 use crate::study::Study;
-use crate::validate::wrong;
 
 /// A parameter and its ends.
 #[derive(Clone, Copy, Debug)]

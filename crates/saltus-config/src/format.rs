@@ -2,8 +2,8 @@
 
 use crate::Study;
 use crate::error::StudyErrorKind;
+use crate::fault::{Fault, Point};
 use crate::key::Key;
-use crate::structure::{Fault, Point};
 use toml::{Table, Value};
 
 /// What to say of a study that a newer version wrote.

@@ -5,10 +5,9 @@
 //! place of such a number, and a key that is taken for absent silently has its default.
 
 use crate::error::{StudyError, StudyErrorKind};
+use crate::fault::{Fault, Point, refuse};
 use crate::key::Key;
-use crate::schema::{Kind, Node};
-use crate::structure::{Fault, Point, description};
-use crate::validate::refuse;
+use crate::schema::{Kind, Node, description};
 use serde_json::Value as Json;
 use toml::{Table, Value};
 

@@ -18,15 +18,16 @@
 
 mod axis;
 mod error;
+mod fault;
 mod format;
 mod json;
 mod key;
 mod load;
-mod orbits;
 mod overrides;
 mod parameter;
 mod physics;
-mod plane;
+mod questions;
+mod range;
 mod schema;
 mod shown;
 mod source;

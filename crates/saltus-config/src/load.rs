@@ -2,14 +2,15 @@
 
 use crate::Study;
 use crate::error::{StudyError, StudyErrorKind};
+use crate::fault::{Fault, Faults, Point};
 use crate::format;
 use crate::json;
 use crate::key::Key;
 use crate::overrides::{self, SetBy};
+use crate::questions;
 use crate::schema::Node;
 use crate::source::Source;
-use crate::structure::{self, Fault, Faults, Point};
-use crate::validate;
+use crate::structure;
 use serde::Deserialize;
 use std::fs::File;
 use std::io::{self, Read};
@@ -156,7 +157,7 @@ fn study(
     // the structure is right, so this fails only if schema and records disagree
     let study = Study::deserialize(tree)
         .map_err(|e| StudyError::new(StudyErrorKind::Value, e.message().to_owned()))?;
-    origin.refuse(validate::faults(&study).into_iter().collect())?;
+    origin.refuse(questions::faults(&study).into_iter().collect())?;
     Ok(study)
 }
 

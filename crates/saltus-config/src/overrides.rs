@@ -2,8 +2,8 @@
 
 use crate::error::{StudyError, StudyErrorKind};
 use crate::key::{Key, index};
-use crate::schema::{Kind, Node, keys};
-use crate::structure::{brackets, description, nearest, single};
+use crate::schema::{Kind, Node, description, keys};
+use crate::structure::{brackets, nearest, single};
 use std::collections::HashMap;
 use toml::{Table, Value};
 

@@ -1,6 +1,7 @@
 //! One number of a study, by its key: what a sweep changes and an axis shows.
 
 use crate::error::{StudyError, StudyErrorKind};
+use crate::fault;
 use crate::key::Key;
 use crate::overrides;
 use crate::schema::{Kind, Node, keys};
@@ -77,7 +78,7 @@ impl Parameter {
         )
         .map_err(&refused)?;
         let changed = Study::deserialize(tree).map_err(|e| refused(e.message().to_owned()))?;
-        validate::refuse(validate::faults_of_system(&changed))?;
+        fault::refuse(validate::faults_of_system(&changed))?;
         Ok(Study {
             sweep: study.sweep.clone(),
             map: study.map.clone(),

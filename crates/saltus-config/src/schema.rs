@@ -41,6 +41,26 @@ fn collect(node: Node, at: &Key, found: &mut Vec<String>) {
     }
 }
 
+/// Description of a key from the schema.
+pub(crate) fn description(key: &Key) -> Option<String> {
+    let node = Node::root().find(key.segments())?;
+    let text = node.text("description")?;
+    Some(text.trim_end_matches('.').to_owned())
+}
+
+/// How a table is written in the file.
+pub(crate) fn header(table: &Key) -> String {
+    let segments = table.segments();
+    match Node::root().find(segments).map(Node::kind) {
+        _ if segments.is_empty() => "a study".to_owned(),
+        Some(Kind::Table) if segments.iter().any(|s| index(s).is_some()) => {
+            format!("[[{}]]", table.without_indices())
+        }
+        Some(Kind::Table) => format!("[{table}]"),
+        _ => format!("{table}"),
+    }
+}
+
 /// A doc comment's line breaks are the source code's, not the reader's.
 fn unwrap_lines(value: &mut Value) {
     match value {

@@ -1,112 +1,13 @@
 //! Does a table have the keys, types and ranges of the schema? All faults are found, not only the first.
 
-use crate::error::{StudyError, StudyErrorKind};
-use crate::key::{Key, index};
-use crate::schema::{Kind, Node, keys};
+use crate::error::StudyErrorKind;
+use crate::fault::{Fault, Faults, Point};
+use crate::key::Key;
+use crate::schema::{Kind, Node, description, header, keys};
 use toml::Value;
 
 /// The least number that is too large for the whole numbers of TOML.
 const TWO_TO_63: f64 = 9_223_372_036_854_775_808.0;
-
-/// One thing that is wrong, before it is known where the key came from.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Fault {
-    pub(crate) kind: StudyErrorKind,
-    pub(crate) key: Key,
-    pub(crate) point: Point,
-    pub(crate) message: String,
-    pub(crate) help: Option<String>,
-}
-
-/// What to underline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Point {
-    /// The name of the key.
-    Name,
-    /// Its value.
-    Value,
-    /// The table in which it is missing.
-    Table,
-}
-
-impl Fault {
-    /// A value that is wrong, with the value in the message.
-    pub(crate) fn value(key: &Key, given: &Value, what: &str) -> Self {
-        let message = format!("{key} = {}: {what}", shown(given));
-        Self::told(key, message, description(key))
-    }
-
-    /// A value that is wrong, in these words.
-    fn told(key: &Key, message: String, help: Option<String>) -> Self {
-        Self {
-            kind: StudyErrorKind::Value,
-            key: key.clone(),
-            point: Point::Value,
-            message,
-            help,
-        }
-    }
-
-    /// A key that is not there.
-    pub(crate) fn missing(key: &Key, help: Option<String>) -> Self {
-        let parent = key.parent().filter(|p| !p.segments().is_empty());
-        let message = match parent {
-            Some(parent) => format!("{key} is missing from {}", header(&parent)),
-            None => format!("the table [{key}] is missing"),
-        };
-        Self {
-            kind: StudyErrorKind::Key,
-            key: key.clone(),
-            point: Point::Table,
-            message,
-            help,
-        }
-    }
-}
-
-/// Faults found: the first ones, and how many there are. A file of another kind has more than anybody reads.
-#[derive(Default)]
-pub(crate) struct Faults {
-    first: Vec<Fault>,
-    count: usize,
-}
-
-impl Faults {
-    /// More than are told, since those that stand first in the file need not be found first.
-    const KEPT: usize = 10 * StudyError::TOLD;
-
-    fn add(&mut self, fault: impl FnOnce() -> Fault) {
-        if !self.is_full() {
-            self.first.push(fault());
-        }
-        self.count += 1;
-    }
-
-    fn is_full(&self) -> bool {
-        self.first.len() >= Self::KEPT
-    }
-
-    pub(crate) fn count(&self) -> usize {
-        self.count
-    }
-}
-
-impl IntoIterator for Faults {
-    type Item = Fault;
-    type IntoIter = std::vec::IntoIter<Fault>;
-
-    fn into_iter(self) -> Self::IntoIter {
-        self.first.into_iter()
-    }
-}
-
-impl FromIterator<Fault> for Faults {
-    fn from_iter<I: IntoIterator<Item = Fault>>(faults: I) -> Self {
-        let mut found = Self::default();
-        faults.into_iter().for_each(|fault| found.add(|| fault));
-        found
-    }
-}
 
 /// Appends every fault of `value`, which stands at `key`, against `node`.
 pub(crate) fn check(node: Node, value: &Value, key: &Key, faults: &mut Faults) {
@@ -295,26 +196,6 @@ pub(crate) fn nearest<'a>(
     (best.0 > 0.8).then_some(best.1)
 }
 
-/// Description of a key from the schema.
-pub(crate) fn description(key: &Key) -> Option<String> {
-    let node = Node::root().find(key.segments())?;
-    let text = node.text("description")?;
-    Some(text.trim_end_matches('.').to_owned())
-}
-
-/// How a table is written in the file.
-fn header(table: &Key) -> String {
-    let segments = table.segments();
-    match Node::root().find(segments).map(Node::kind) {
-        _ if segments.is_empty() => "a study".to_owned(),
-        Some(Kind::Table) if segments.iter().any(|s| index(s).is_some()) => {
-            format!("[[{}]]", table.without_indices())
-        }
-        Some(Kind::Table) => format!("[{table}]"),
-        _ => format!("{table}"),
-    }
-}
-
 fn type_of(value: &Value) -> &'static str {
     match value {
         Value::String(_) => "text",
@@ -325,14 +206,4 @@ fn type_of(value: &Value) -> &'static str {
         Value::Array(_) => "a list",
         Value::Table(_) => "a table",
     }
-}
-
-/// The value as written, cut to a length that fits in a message.
-fn shown(value: &Value) -> String {
-    let text = value.to_string().replace('\n', " ");
-    let mut short: String = text.chars().take(60).collect();
-    if short.len() < text.len() {
-        short.push_str("...");
-    }
-    short
 }

@@ -1,74 +1,10 @@
 //! Is a study of the right shape also a possible one?
 
-use crate::axis;
-use crate::error::{StudyError, StudyErrorKind};
-use crate::key::Key;
+use crate::fault::{Fault, key, wrong};
 use crate::schema::Node;
-use crate::structure::{Fault, Point, description};
-use crate::study::{Direction, Law, Modes, Reference, Study};
-use crate::{Basis, orbits, plane, values};
+use crate::study::{Basis, Law, Modes, Reference, Study};
 use garde::Validate;
 use toml::Value;
-
-/// Comparisons with NaN are false, so a range lets it pass; this does not.
-pub(crate) fn finite(value: &f64, _: &()) -> garde::Result {
-    if value.is_finite() {
-        Ok(())
-    } else {
-        Err(garde::Error::new("a finite number is needed"))
-    }
-}
-
-pub(crate) fn finite_if_given(value: &Option<f64>, context: &()) -> garde::Result {
-    value.as_ref().map_or(Ok(()), |v| finite(v, context))
-}
-
-pub(crate) fn poisson(value: &f64, _: &()) -> garde::Result {
-    let possible = *value > -1.0 && *value < 0.5;
-    if possible {
-        Ok(())
-    } else {
-        Err(garde::Error::new("a number between -1 and 0.5 is needed"))
-    }
-}
-
-impl Study {
-    /// Checks every range and what keys say about each other; [`parse`](crate::parse) does so too.
-    ///
-    /// # Errors
-    /// A [`StudyError`] that names the key.
-    pub fn validate(&self) -> Result<(), StudyError> {
-        refuse(faults(self))
-    }
-}
-
-/// The first fault as an error that carries the others.
-pub(crate) fn refuse(faults: Vec<Fault>) -> Result<(), StudyError> {
-    let count = faults.len();
-    let problems = faults.into_iter().take(StudyError::TOLD).map(|fault| {
-        let error = StudyError::new(fault.kind, fault.message).key_is(fault.key.to_string());
-        match fault.help {
-            Some(help) => error.help(help),
-            None => error,
-        }
-    });
-    StudyError::first_of(problems.collect(), count).map_or(Ok(()), Err)
-}
-
-/// Everything that is wrong with the study.
-pub(crate) fn faults(study: &Study) -> Vec<Fault> {
-    let mut faults = faults_of_system(study);
-    // the ends of a parameter are tried on a study that is itself sound
-    if faults.is_empty() {
-        sweep(study, &mut faults);
-        plane::map(study, &mut faults);
-        plane::basins(study, &mut faults);
-        orbits::orbit(study, &mut faults);
-        orbits::branches(study, &mut faults);
-        orbits::attractors(study, &mut faults);
-    }
-    faults
-}
 
 /// Everything that is wrong with the study, the questions about it aside.
 pub(crate) fn faults_of_system(study: &Study) -> Vec<Fault> {
@@ -238,44 +174,5 @@ fn base(study: &Study, faults: &mut Vec<Fault>) {
             faults.push(fault);
         }
         _ => {}
-    }
-}
-
-fn sweep(study: &Study, faults: &mut Vec<Fault>) {
-    let Some(sweep) = &study.sweep else { return };
-    if let Some(axis) = values::axis("sweep", &sweep.axis(), faults) {
-        axis::check(study, &[axis], |_| None, faults);
-    }
-    starts(sweep.direction, &sweep.starts, faults);
-}
-
-fn starts(direction: Direction, starts: &[[f64; 2]], faults: &mut Vec<Fault>) {
-    if direction == Direction::Restarts && starts.is_empty() {
-        let key = key("sweep.starts");
-        let help = description(&key).map(|d| format!("direction \"restarts\" needs it: {d}"));
-        faults.push(Fault::missing(&key, help));
-    }
-    for (i, start) in starts.iter().enumerate() {
-        for (k, &value) in start.iter().enumerate() {
-            if !(-1e6..=1e6).contains(&value) {
-                faults.push(wrong(
-                    &format!("sweep.starts.{i}.{k}"),
-                    value,
-                    "a number from -1e6 to 1e6 is needed",
-                ));
-            }
-        }
-    }
-}
-
-pub(crate) fn key(name: &str) -> Key {
-    Key::parse(name).unwrap_or_default()
-}
-
-pub(crate) fn wrong(name: &str, given: impl Into<Value>, what: &str) -> Fault {
-    Fault {
-        kind: StudyErrorKind::Value,
-        point: Point::Value,
-        ..Fault::value(&key(name), &given.into(), what)
     }
 }

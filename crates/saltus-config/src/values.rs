@@ -1,9 +1,9 @@
 //! The two ways of giving the values of an axis: `from`, `to` and `count`, or a list.
 
 use crate::axis::{Axis, Ends};
-use crate::structure::{Fault, description};
+use crate::fault::{Fault, key, wrong};
+use crate::schema::description;
 use crate::study::AxisTable;
-use crate::validate::{key, wrong};
 
 /// The axis of `table`, if its values are given in one way and, being a list, ascend or descend.
 pub(crate) fn axis<'a>(

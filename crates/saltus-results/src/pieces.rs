@@ -31,7 +31,7 @@ mod piece;
 mod work;
 
 pub use piece::Seal;
-pub use work::work_in;
+pub use work::{MANIFEST, work_in};
 
 use crate::staging::whole_name;
 use crate::{ResultsError, ordinary};
@@ -41,9 +41,6 @@ use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use work::{compare, read_manifest, text_of};
-
-/// Name of the file that says which work the pieces belong to.
-pub const MANIFEST: &str = "saltus-pieces.json";
 
 /// Most bytes of a piece that is read: far more than any has.
 const LARGEST: u64 = 1 << 30;

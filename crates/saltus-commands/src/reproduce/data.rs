@@ -6,8 +6,8 @@ use crate::data::{Listed, about, coordinate, padded, texts};
 use crate::kinds;
 use crate::quantities as q;
 use saltus::study::Pass;
-use saltus_paper::{Detail, Diagram, Met, PanelBranches};
 use saltus_config::{Parameter, Study};
+use saltus_paper::{Detail, Diagram, Met, PanelBranches};
 use saltus_results::{Dataset, Table, Variable};
 
 /// Panels of Fig. 2.

@@ -1,7 +1,7 @@
 //! `[attractors]`: all long-term motions that many first states lead to.
 
 use super::AxisTable;
-use crate::validate::{finite, finite_if_given};
+use crate::range::{finite, finite_if_given};
 use garde::Validate;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,6 @@
 //! `[map.x]` and its like: a key of the study and the values it takes.
 
-use crate::validate::{finite, finite_if_given};
+use crate::range::{finite, finite_if_given};
 use garde::Validate;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

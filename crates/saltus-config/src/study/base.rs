@@ -1,6 +1,6 @@
 //! `[base]` and `[gravity]`: what shakes the plate and what pulls the people down.
 
-use crate::validate::{finite, finite_if_given};
+use crate::range::{finite, finite_if_given};
 use garde::Validate;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

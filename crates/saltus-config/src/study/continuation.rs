@@ -1,6 +1,6 @@
 //! `[continue]`: branches of periodic orbits over a parameter, and curves of their special points over two.
 
-use crate::validate::finite;
+use crate::range::finite;
 use garde::Validate;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,6 @@
 //! `[[jumper]]`, `[contact]` and `[start]`: the people, their feet, and how they begin.
 
-use crate::validate::finite;
+use crate::range::finite;
 use garde::Validate;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,7 +1,7 @@
 //! `[plate]`: geometry, material, terms of the displacement fields.
 
 use super::Modes;
-use crate::validate::{finite, poisson};
+use crate::range::{finite, poisson};
 use garde::Validate;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -1,6 +1,6 @@
 //! `[solver]` and `[simulate]`: how the motion is integrated, and for how long.
 
-use crate::validate::finite;
+use crate::range::finite;
 use garde::Validate;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

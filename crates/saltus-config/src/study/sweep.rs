@@ -2,7 +2,7 @@
 
 use super::AxisTable;
 use super::axis::either_way;
-use crate::validate::{finite, finite_if_given};
+use crate::range::{finite, finite_if_given};
 use garde::Validate;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

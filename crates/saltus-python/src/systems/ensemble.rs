@@ -12,7 +12,7 @@ use saltus_hybrid::{
 
 use super::blueprint::Blueprint;
 use super::input::Settings;
-use super::program::Members;
+use super::members::Members;
 use crate::error::{of_computation, of_definition};
 use crate::running::{Progress, run as run_beside};
 

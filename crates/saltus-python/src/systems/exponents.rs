@@ -10,7 +10,7 @@ use saltus_orbits::{Ascent, ClimbError, Climbed, Place, Start, Stroboscopic, cli
 
 use super::blueprint::Blueprint;
 use super::input::Settings;
-use super::program::Members;
+use super::members::Members;
 use crate::error::{of_computation, of_definition};
 use crate::running::{Progress, run as run_beside};
 

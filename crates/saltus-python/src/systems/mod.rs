@@ -8,6 +8,7 @@ mod exponents;
 mod formula;
 mod input;
 mod lower;
+mod members;
 mod orbit;
 mod program;
 

@@ -8,7 +8,7 @@ use saltus_orbits::{Family, Lost, NewtonOptions, Place, Shot, Stroboscopic, find
 
 use super::blueprint::Blueprint;
 use super::input::Settings;
-use super::program::Members;
+use super::members::Members;
 use crate::error::of_computation;
 use crate::running::{Progress, run};
 

@@ -11,6 +11,7 @@ use super::exponents::{self, Exponents};
 use super::formula::Op;
 use super::input::{Definition, Settings};
 use super::lower::lower;
+use super::members::Members;
 use super::orbit::{self, Orbit, Search};
 use crate::error::of_definition;
 use crate::running::{Progress, sound};
@@ -22,35 +23,6 @@ pub(crate) struct Program {
     parameters: usize,
 }
 
-/// Trajectories to begin: parameters, states and modes, one row for each.
-pub(crate) struct Members {
-    pub(crate) count: usize,
-    pub(crate) parameters: Rows<f64>,
-    pub(crate) starts: Rows<f64>,
-    pub(crate) modes: Rows<usize>,
-}
-
-/// A matrix, row by row; rows may be empty.
-pub(crate) struct Rows<T> {
-    width: usize,
-    values: Vec<T>,
-}
-
-impl<T: Copy> Rows<T> {
-    pub(crate) fn row(&self, index: usize) -> &[T] {
-        &self.values[index * self.width..(index + 1) * self.width]
-    }
-}
-
-/// A copy, since Python may change the array while we compute.
-fn rows<T: Copy + numpy::Element>(array: &PyReadonlyArray2<'_, T>) -> Rows<T> {
-    let array = array.as_array();
-    Rows {
-        width: array.ncols(),
-        values: array.iter().copied().collect(),
-    }
-}
-
 impl Program {
     fn members(
         &self,
@@ -58,45 +30,8 @@ impl Program {
         starts: &PyReadonlyArray2<'_, f64>,
         modes: &PyReadonlyArray2<'_, u8>,
     ) -> PyResult<Members> {
-        let count = starts.as_array().nrows();
-        let modes = rows(modes);
-        let members = Members {
-            count,
-            parameters: rows(parameters),
-            starts: rows(starts),
-            modes: Rows {
-                width: modes.width,
-                values: modes.values.iter().map(|&mode| usize::from(mode)).collect(),
-            },
-        };
-        let widths = (members.parameters.width, members.starts.width, modes.width);
         let blueprint = &self.blueprint;
-        let expected = (self.parameters, blueprint.states(), blueprint.units.len());
-        let long = |rows: usize, width: usize| rows == count * width;
-        let full = long(members.parameters.values.len(), widths.0)
-            && long(members.modes.values.len(), widths.2);
-        if widths != expected || !full {
-            return Err(of_definition(format!(
-                "{count} members with {widths:?} parameters, states and units; {expected:?} are needed"
-            )));
-        }
-        for member in 0..count {
-            let modes = members.modes.row(member).iter().zip(&blueprint.units);
-            if modes.into_iter().any(|(&mode, unit)| mode >= unit.len()) {
-                return Err(of_definition(format!(
-                    "member {member}: a mode that its unit does not have"
-                )));
-            }
-            let row = members.parameters.row(member);
-            let fits = match member {
-                0 => blueprint.system(row).map(drop),
-                _ => blueprint.check(row),
-            };
-            if let Err(reason) = fits {
-                return Err(of_definition(format!("member {member}: {reason}")));
-            }
-        }
-        Ok(members)
+        sound(|| Members::new(blueprint, self.parameters, parameters, starts, modes))
     }
 }
 
@@ -171,7 +106,7 @@ impl Program {
         settings: Settings,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Trajectories> {
-        let members = sound(|| self.members(&parameters, &starts, &modes))?;
+        let members = self.members(&parameters, &starts, &modes)?;
         let plan = Plan {
             periods,
             transient,
@@ -200,7 +135,7 @@ impl Program {
         iterations: usize,
         settings: Settings,
     ) -> PyResult<Orbit> {
-        let members = sound(|| self.members(&parameters, &starts, &modes))?;
+        let members = self.members(&parameters, &starts, &modes)?;
         let search = Search {
             period,
             tolerance,
@@ -224,7 +159,7 @@ impl Program {
         settings: Settings,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Exponents> {
-        let members = sound(|| self.members(&parameters, &starts, &modes))?;
+        let members = self.members(&parameters, &starts, &modes)?;
         let progress = Progress {
             call: progress,
             what: "exponents",

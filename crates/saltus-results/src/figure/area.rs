@@ -1,6 +1,6 @@
 //! Areas between two curves, cut to the frame.
 
-use super::marks::Frame;
+use super::frame::Frame;
 use super::thin::polyline;
 
 /// Pixels beyond this are far outside any frame; larger ones would overflow when they are cut.

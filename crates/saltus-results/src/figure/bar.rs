@@ -2,9 +2,10 @@
 
 use super::axis::Scale;
 use super::colour::Colour;
-use super::compose::{EDGE, LABEL, TICK};
-use super::marks::{Frame, Ink, Step, outline};
+use super::frame::Frame;
+use super::ink::{Ink, Step, outline};
 use super::mosaic::{Cells, Mixing};
+use super::style::{EDGE, LABEL, TICK};
 use super::text;
 use kuva::render::render::{Primitive, TextAnchor};
 
@@ -60,11 +61,8 @@ impl Bar {
         let scale = self.scale.clone().between(bottom, top);
         for (y, label) in scale.ticks() {
             let from = left + WIDTH;
-            ink.push(Ink::Trail {
-                steps: vec![Step::Move(from, y), Step::Line(from + TICKS, y)],
-                width: 1.0,
-                colour: Colour::BLACK,
-            });
+            let steps = vec![Step::Move(from, y), Step::Line(from + TICKS, y)];
+            ink.push(Ink::trail(steps, 1.0, Colour::BLACK));
             words.push(Primitive::Text {
                 x: from + TICKS + SPACE,
                 y: y + 0.36 * f64::from(TICK),
@@ -127,20 +125,13 @@ impl Bar {
                 (left + 0.5 * WIDTH, base + height),
                 (left + WIDTH, base),
             ];
-            ink.push(Ink::Area {
-                corners: corners.to_vec(),
-                colour,
-                opacity: 1.0,
-            });
-            ink.push(Ink::Trail {
-                steps: vec![
-                    Step::Move(corners[0].0, corners[0].1),
-                    Step::Line(corners[1].0, corners[1].1),
-                    Step::Line(corners[2].0, corners[2].1),
-                ],
-                width: 1.0,
-                colour: Colour::BLACK,
-            });
+            let steps = vec![
+                Step::Move(corners[0].0, corners[0].1),
+                Step::Line(corners[1].0, corners[1].1),
+                Step::Line(corners[2].0, corners[2].1),
+            ];
+            ink.push(Ink::area(corners.to_vec(), colour, 1.0));
+            ink.push(Ink::trail(steps, 1.0, Colour::BLACK));
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Kinds of bifurcations: one symbol, colour and name for each, the same in all figures.
 
 use super::colour::Colour;
-use super::marks::{Ink, Step};
+use super::ink::{Ink, Step};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// What happens at a special point of a branch, or along a curve in a plane of two parameters.
@@ -64,11 +64,11 @@ impl Bifurcation {
         let white = Colour(255, 255, 255);
         [
             outline(&corners, 3.6, white),
-            Ink::Area {
-                corners: corners.clone(),
-                colour: if open { white } else { Colour::BLACK },
-                opacity: 1.0,
-            },
+            Ink::area(
+                corners.clone(),
+                if open { white } else { Colour::BLACK },
+                1.0,
+            ),
             outline(&corners, 1.3, Colour::BLACK),
         ]
     }
@@ -97,9 +97,5 @@ fn outline(corners: &[(f64, f64)], width: f64, colour: Colour) -> Ink {
         0 => Step::Move(x, y),
         _ => Step::Line(x, y),
     });
-    Ink::Trail {
-        steps: steps.collect(),
-        width,
-        colour,
-    }
+    Ink::trail(steps.collect(), width, colour)
 }

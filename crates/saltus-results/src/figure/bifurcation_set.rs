@@ -3,8 +3,7 @@
 use super::axis::Axis;
 use super::bifurcation::Bifurcation;
 use super::colour::Colour;
-use super::notes::{Note, Place};
-use super::panel::{Layer, Panel, Swatch};
+use super::panel::{Layer, Note, Panel, Place, Swatch};
 
 /// Curves of bifurcations in a plane of two parameters, in one colour for each kind.
 ///

@@ -3,8 +3,7 @@
 use super::axis::Axis;
 use super::bifurcation::Bifurcation;
 use super::colour::Colour;
-use super::notes::{Note, Place};
-use super::panel::{Layer, Panel, Swatch};
+use super::panel::{Layer, Note, Panel, Place, Swatch};
 use super::parts::only;
 
 /// Branches of periodic orbits, solid where stable and dashed where not, with their special points.

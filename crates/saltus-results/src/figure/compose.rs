@@ -3,9 +3,12 @@
 
 use super::axis::Scale;
 use super::colour::Colour;
+use super::frame::Frame;
+use super::ink::Drawing;
 use super::legend;
-use super::marks::{self, Frame, Ink};
-use super::panel::Panel;
+use super::marks;
+use super::panel::{Key, Panel};
+use super::style::{EDGE, LABEL, PANEL_TITLE, TICK, TITLE};
 use super::{Figure, text};
 use kuva::plot::LinePlot;
 use kuva::render::layout::{AxisLabelOverlap, ComputedLayout, Layout};
@@ -13,25 +16,13 @@ use kuva::render::plots::Plot;
 use kuva::render::render::{Primitive, Scene, TextAnchor, TextSpan, render_multiple};
 use kuva::render::theme::Theme;
 
-/// Sizes of type (px).
-const TITLE: u32 = 16;
-const PANEL_TITLE: u32 = 14;
-pub(crate) const LABEL: u32 = 15;
-pub(crate) const TICK: u32 = 13;
 /// Distances (px).
-pub(crate) const EDGE: f64 = 8.0;
 const TITLE_LINE: f64 = 22.0;
 const PANEL_LINE: f64 = 19.0;
 const FLAG_LINE: f64 = 17.0;
 const RIGHT: f64 = 28.0;
 /// Strokes of all clouds of a figure: about a megabyte of SVG.
 const STROKES: usize = 75_000;
-
-/// A figure in pixels of the SVG: axes and type as kuva draws them, and the marks above both.
-pub(crate) struct Drawing {
-    pub(crate) scene: Scene,
-    pub(crate) ink: Vec<Ink>,
-}
 
 /// Lays out the whole figure.
 pub(crate) fn drawing(figure: &Figure) -> Drawing {
@@ -226,7 +217,7 @@ struct Sheet {
     rows: Vec<Margins>,
     plot: (f64, f64),
     title: Vec<String>,
-    legend: Vec<Vec<super::panel::Key>>,
+    legend: Vec<Vec<Key>>,
     width: f64,
 }
 

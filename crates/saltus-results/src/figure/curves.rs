@@ -3,6 +3,7 @@
 use super::axis::Axis;
 use super::colour::Colour;
 use super::panel::{Layer, Panel, Swatch};
+use super::style::BAND;
 
 /// Labelled curves, optionally with a dot at each point and with their uncertainty.
 #[derive(Clone, Debug)]
@@ -163,9 +164,6 @@ impl Curves {
         self
     }
 }
-
-/// Opacity of a band: two of them on top of each other still let a curve through.
-pub(crate) const BAND: f64 = 0.25;
 
 impl From<Curves> for Panel {
     fn from(plot: Curves) -> Self {

@@ -1,6 +1,6 @@
 //! Dashes along any path, drawn one by one so that both backends agree on them.
 
-use super::marks::Step;
+use super::ink::Step;
 
 /// Length of a dash and of the gap after it (px), both stretched a little to fit the path.
 const DASH: f64 = 6.5;

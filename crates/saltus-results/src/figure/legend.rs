@@ -2,10 +2,10 @@
 //! outside the axes, so it cannot cover data.
 
 use super::colour::Colour;
-use super::curves::BAND;
 use super::dash::dashed;
-use super::marks::{Ink, SHADE, Step, outline, rectangle};
+use super::ink::{Ink, Step, outline, rectangle};
 use super::panel::{Key, Panel, Swatch, Tally};
+use super::style::{BAND, SHADE};
 use super::text;
 use kuva::render::render::{Primitive, TextAnchor};
 

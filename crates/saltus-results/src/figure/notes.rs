@@ -1,28 +1,13 @@
 //! Short labels beside points inside the frame: none overlaps another, and few hide a curve.
 
-use super::compose::TICK;
-use super::marks::{Frame, Ink, Step, clip, line};
-use super::panel::{Layer, Panel};
+use super::frame::{Frame, clip, line};
+use super::ink::{Ink, Step};
+use super::panel::{Layer, Note, Panel, Place};
+use super::style::TICK;
 use super::text;
 
 /// Points of a cycle that are tried: each costs a look at all curves.
 const ENOUGH: usize = 16;
-
-/// A label and what it belongs to.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Note {
-    pub(crate) text: String,
-    pub(crate) place: Place,
-}
-
-/// Beside what a label may stand, in data.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Place {
-    /// Any one of the first [`ENOUGH`] points that show, such as those of a cycle; the first are liked best.
-    At(Vec<(f64, f64)>),
-    /// Any part of a curve; its middle is liked best.
-    Along(Vec<f64>, Vec<f64>),
-}
 
 impl Place {
     /// The points that show (px).

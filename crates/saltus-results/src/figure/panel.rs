@@ -5,10 +5,7 @@ use super::bar::Bar;
 use super::bifurcation::Bifurcation;
 use super::colour::Colour;
 use super::mosaic::Cells;
-use super::notes::Note;
-
-/// Width (px) and colour of lines that data are compared with.
-pub(crate) const REFERENCE: (f64, Colour) = (1.2, Colour::DARK);
+use super::style::REFERENCE;
 
 /// One panel of a figure. Made by `into()` from a [`Cloud`](super::Cloud), [`Branches`](super::Branches),
 /// [`BifurcationSet`](super::BifurcationSet), [`Shares`](super::Shares), [`Portrait`](super::Portrait),
@@ -89,6 +86,22 @@ pub(crate) enum Layer {
     Cells(Cells),
     /// The frame once more, where layers before have covered the inner half of its line.
     Frame,
+}
+
+/// A label and what it belongs to.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Note {
+    pub(crate) text: String,
+    pub(crate) place: Place,
+}
+
+/// Beside what a label may stand, in data.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Place {
+    /// Any one of the first points that show, such as those of a cycle; the first are liked best.
+    At(Vec<(f64, f64)>),
+    /// Any part of a curve; its middle is liked best.
+    Along(Vec<f64>, Vec<f64>),
 }
 
 /// An entry of the legend.

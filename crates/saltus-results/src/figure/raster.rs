@@ -5,10 +5,10 @@
 //! the labels of the vertical axes are drawn upright and turned by exact quarter turns (`lettering.rs`).
 
 use super::colour::Colour;
-use super::compose::{Drawing, TICK};
+use super::ink::{Drawing, Ink, Step};
 use super::lettering::{self, take_turned};
-use super::marks::{HALO, Ink, RIM, Step};
 use super::mosaic::{Mosaic, Raster};
+use super::style::{HALO, RIM, TICK};
 use crate::ResultsError;
 use kuva::RasterBackend;
 use kuva::render::render::Scene;

@@ -1,9 +1,9 @@
 //! The SVG backend: kuva's for axes and type, with our marks as few and short paths.
 
 use super::colour::Colour;
-use super::compose::{Drawing, TICK};
-use super::marks::{HALO, Ink, RIM, Step};
+use super::ink::{Drawing, Ink, Step};
 use super::mosaic::Mosaic;
+use super::style::{HALO, RIM, TICK};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use kuva::backend::svg::SvgBackend;

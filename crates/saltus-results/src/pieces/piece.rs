@@ -5,7 +5,7 @@
 //! fingerprint (u32); number of the piece (u32); CRC-32 of the 20 bytes so far and the content (u32);
 //! length of the content (u64); the content. CRC-32 is that of PNG and zlib.
 
-use super::work::text_of;
+use super::work::{FORMAT, text_of};
 
 /// What is written into the header of every piece of one work, and looked for in those that come back.
 ///
@@ -48,8 +48,6 @@ impl Seal {
     }
 }
 
-/// Version of the format; pieces of another version are not read.
-pub(super) const FORMAT: u32 = 1;
 const MAGIC: &[u8; 8] = b"saltuspc";
 /// Bytes before the content.
 const HEADER: usize = 32;

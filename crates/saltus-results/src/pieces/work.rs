@@ -1,11 +1,15 @@
 //! The manifest of a folder of pieces: to which work they belong.
 
-use super::MANIFEST;
-use super::piece::FORMAT;
 use crate::shown::printable;
 use crate::{ResultsError, ordinary};
 use std::io;
 use std::path::Path;
+
+/// Name of the file that says which work the pieces belong to.
+pub const MANIFEST: &str = "saltus-pieces.json";
+
+/// Version of the format; pieces of another version are not read.
+pub(super) const FORMAT: u32 = 1;
 
 /// Names and values that say to which work the pieces in `dir` belong, as given at its first opening.
 ///

@@ -228,7 +228,7 @@ const STUDY: &str = "SALTUS_TEST_STUDY";
 /// A process that opens the folder as shared once its input is closed, and writes 40 pieces.
 fn start(dir: &Path, study: &str) -> Child {
     Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", "shard", "--ignored"])
+        .args(["--exact", "pieces::shard", "--ignored"])
         .env(DIR, dir)
         .env(STUDY, study)
         .stdin(Stdio::piped())

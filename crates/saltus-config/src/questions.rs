@@ -1,14 +1,99 @@
-//! Are the questions of `[orbit]`, `[continue]` and `[attractors]` possible ones?
+//! Questions of a study: sweep, planes, orbits, branches and attractors. Each must be possible for the system at hand.
 
 use crate::axis::{self, Axis, Ends};
 use crate::error::StudyError;
-use crate::structure::{Fault, description};
-use crate::study::{AxisTable, ContinueTable, SecondTable, Study};
-use crate::validate::{key, wrong};
+use crate::fault::{Fault, key, refuse, wrong};
+use crate::schema::description;
+use crate::study::{AxisTable, ContinueTable, Direction, SecondTable, Study};
+use crate::validate;
 use crate::values;
 
+/// What a start is made of.
+const STARTS: [&str; 2] = ["start.z", "start.v"];
+
+impl Study {
+    /// Checks every range and what keys say about each other; [`parse`](crate::parse) does so too.
+    ///
+    /// # Errors
+    /// A [`StudyError`] that names the key.
+    pub fn validate(&self) -> Result<(), StudyError> {
+        refuse(faults(self))
+    }
+}
+
+/// Everything that is wrong with the study.
+pub(crate) fn faults(study: &Study) -> Vec<Fault> {
+    let mut faults = validate::faults_of_system(study);
+    // the ends of a parameter are tried on a study that is itself sound
+    if faults.is_empty() {
+        sweep(study, &mut faults);
+        map(study, &mut faults);
+        basins(study, &mut faults);
+        orbit(study, &mut faults);
+        branches(study, &mut faults);
+        attractors(study, &mut faults);
+    }
+    faults
+}
+
+/// The parameter can vary over its values, and restarts have first states.
+fn sweep(study: &Study, faults: &mut Vec<Fault>) {
+    let Some(sweep) = &study.sweep else { return };
+    if let Some(axis) = values::axis("sweep", &sweep.axis(), faults) {
+        axis::check(study, &[axis], |_| None, faults);
+    }
+    starts(sweep.direction, &sweep.starts, faults);
+}
+
+fn starts(direction: Direction, starts: &[[f64; 2]], faults: &mut Vec<Fault>) {
+    if direction == Direction::Restarts && starts.is_empty() {
+        let key = key("sweep.starts");
+        let help = description(&key).map(|d| format!("direction \"restarts\" needs it: {d}"));
+        faults.push(Fault::missing(&key, help));
+    }
+    for (i, start) in starts.iter().enumerate() {
+        for (k, &value) in start.iter().enumerate() {
+            if !(-1e6..=1e6).contains(&value) {
+                faults.push(wrong(
+                    &format!("sweep.starts.{i}.{k}"),
+                    value,
+                    "a number from -1e6 to 1e6 is needed",
+                ));
+            }
+        }
+    }
+}
+
+/// Both parameters can vary over their ranges, together.
+fn map(study: &Study, faults: &mut Vec<Fault>) {
+    let Some(map) = &study.map else { return };
+    let x = values::axis("map.x", &map.x, faults);
+    let y = values::axis("map.y", &map.y, faults);
+    let (Some(x), Some(y)) = (x, y) else { return };
+    let refusal = axis::of_the_system([
+        "a map begins every pixel from the same [start]",
+        "a plane of first states is what [basins] is for",
+    ]);
+    axis::check(study, &[x, y], refusal, faults);
+}
+
+/// Both axes are numbers of the start, and not the same one.
+fn basins(study: &Study, faults: &mut Vec<Fault>) {
+    let Some(basins) = &study.basins else { return };
+    let x = values::axis("basins.x", &basins.x, faults);
+    let y = values::axis("basins.y", &basins.y, faults);
+    let (Some(x), Some(y)) = (x, y) else { return };
+    let refusal = |given: &str| {
+        (!STARTS.contains(&given)).then_some([
+            "\"start.z\" or \"start.v\" is needed",
+            "a plane of two parameters of the system is what [map] is for",
+        ])
+    };
+    axis::check(study, &[x, y], refusal, faults);
+}
+
 /// No more segments than periods, where these are known.
-pub(crate) fn orbit(study: &Study, faults: &mut Vec<Fault>) {
+fn orbit(study: &Study, faults: &mut Vec<Fault>) {
     let orbit = &study.orbit;
     if orbit.period > 0 && orbit.segments > orbit.period {
         let what = format!("at most orbit.period = {} are needed", orbit.period);
@@ -17,7 +102,7 @@ pub(crate) fn orbit(study: &Study, faults: &mut Vec<Fault>) {
 }
 
 /// The parameters of `[continue]` can vary over their ranges, together, and the curves have possible names.
-pub(crate) fn branches(study: &Study, faults: &mut Vec<Fault>) {
+fn branches(study: &Study, faults: &mut Vec<Fault>) {
     let Some(table) = &study.continuation else {
         return;
     };
@@ -47,7 +132,7 @@ fn is_label(text: &str) -> bool {
 }
 
 /// Ranges go upwards, and the sweep is whole and possible, or not there.
-pub(crate) fn attractors(study: &Study, faults: &mut Vec<Fault>) {
+fn attractors(study: &Study, faults: &mut Vec<Fault>) {
     let table = &study.attractors;
     for (name, range) in [("attractors.z", table.z), ("attractors.v", table.v)] {
         if range[0] > range[1] {
