@@ -150,6 +150,14 @@ impl Kind {
         }
     }
 
+    /// The period of a cycle.
+    pub fn period(self) -> Option<u32> {
+        match self {
+            Self::Periodic(n) => Some(n),
+            _ => None,
+        }
+    }
+
     /// Whether it is known not to repeat.
     pub fn never_repeats(self) -> bool {
         matches!(
