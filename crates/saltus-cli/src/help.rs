@@ -82,26 +82,26 @@ plate.inertia = \"slow-manifold\" is some 25 times as fast as \"full\",
 
 JSON (--json, and sweep.json in --out):
   parameter       the key that changes; unit and label say more
-  passes          direction (\"up\", \"down\", \"start\") and first state
-                  start = [z/eta, z'/(eta omega_h)]
+  passes          pass (from 0), direction (\"up\", \"down\", \"start\") and first
+                  state: start_z (z/eta), start_v (z'/(eta omega_h))
   rows            one per pass and value, pass by pass, in each the values from
-                  sweep.from to sweep.to:
-    pass          which, from 0, with its direction and start
+                  sweep.from to sweep.to, with the keys of the pass and
     value         of the parameter
-    z, v          sweep.record samples at cos(Omega t) = 1: height z/eta and
-                  velocity z'/(eta omega_h) (-); a list for one jumper, a list
-                  of lists for several
-    contact_ratio part of the recorded time on the floor (-), likewise
-    label         what the motion is that goes on from the last state:
+    z, v          for each jumper a list of sweep.record samples at
+                  cos(Omega t) = 1: height z/eta and velocity z'/(eta omega_h)
+                  (-); fewer if the row ended early
+    contact_ratio of each jumper, part of the recorded time on the floor (-)
+    label         kind of the motion that goes on from the last state:
                   \"periodic\", \"quasi-periodic\", \"chaotic\" or \"undecided\"; null
                   if the row ended early. Up to 2000 more periods are run
     period        forcing periods of a cycle, at most 32; else null
     confidence    of the test behind the label or, if undecided, of the sign of
                   the exponent; null for a cycle known by its returns
-    exponents     the sweep.exponents largest Lyapunov exponents, followed from
-                  there for sweep.exponent_periods: per_period (natural
-                  logarithm) and standard_error. With 0 that which the label
-                  took, if any
+    exponent, error
+                  the sweep.exponents largest Lyapunov exponents per forcing
+                  period (natural logarithm) and their standard errors, followed
+                  from there for sweep.exponent_periods. With 0 the one that the
+                  label took, if any
     status        as in `saltus simulate`, or \"no-model\"
     status_text   the same in a sentence
   version, study (as resolved)
@@ -324,66 +324,69 @@ cycle is confirmed by Newton's method and its Floquet multipliers, and chaos is
 watched: eight motions on it, for 12 000 forcing periods each.
 
 JSON (--json, and attractors.json in --out):
-  parameter          the key that changes; unit and label say more; null if none
-  starts             first states at each value
-  unseen             3/starts: with 95 % confidence, a basin that no first state
-                     met has a smaller part of the box
-  rows               one per value, from the lowest:
+  parameter          the key that changes; unit and label say more; no key
+                     without a parameter, and then each value is null
+  starts_asked       first states at each value
+  unseen             3/starts_asked: with 95 % confidence, a basin that no first
+                     state met has a smaller part of the box
+  attractors         one per value, from the lowest, and attractor met there:
     value            of the parameter
-    attractors       those with the most first states first:
-      number         from 1; the same attractor has the same at all values
-      period         forcing periods; null if not periodic
-      kind           \"periodic\", \"quasi-periodic\", \"chaotic\"
-      multiplier     largest modulus of the Floquet multipliers of the cycle,
+    attractor        number from 1; the same attractor has it at all values
+    period           forcing periods; null if not periodic
+    kind             \"periodic\", \"quasi-periodic\", \"chaotic\"
+    multiplier       largest modulus of the Floquet multipliers of the cycle,
                      below 1; null if not periodic
-      exponent, exponent_error
+    exponent, exponent_error
                      largest Lyapunov exponent per forcing period and its
                      standard error; null if periodic
-      survival       chaos: motions watched on it, ended (0), periods of all of
-                     them together, and lifetime [mean, low, high] in forcing
-                     periods, null where infinite: low is exceeded with 95 %
-                     confidence; null if not chaotic
-      starts, share  first states that lead to it; 0 for one that was only
-                     carried here. share = [value, low, high], with Wilson's
-                     95 % confidence interval
-      contact_ratio, peak_reaction, peak_acceleration
-                     as in `saltus map`
-      z, v           its samples at cos(Omega t) = 1: height z/eta and velocity
+    lifetime_low     chaos: forcing periods that its mean lifetime exceeds with
+                     95 % confidence, since of watched_motions watched on it,
+                     for watched_periods together, none left it; else null
+    starts, share    first states that lead to it; 0 for one that was only
+                     carried here; share_low and share_high are Wilson's
+                     interval of 95 % confidence
+    contact_ratio, peak_reaction, peak_acceleration
+                     as in `saltus map`; the first two of each jumper
+  sections           one per value and attractor met there: value, attractor,
+                     and z, v, for each jumper a list of samples at
+                     cos(Omega t) = 1: height z/eta and velocity
                      z'/(eta omega_h) (-), those of a cycle in an order that
-                     connects along the parameter; a list for one jumper, a
-                     list of lists for several
-    transients       chaos that is no attractor, since some of the motions
-                     watched on it ended on a cycle: starts and share that were
-                     still in it, motions, ended, periods and lifetime as above
-                     (a 95 % confidence interval), and to, the number of the
-                     attractor that it ends on and that its starts count for
-    undecided, lost  first states that came to no attractor, since they were
-                     still on their way or their run ended early; likewise
-                     starts and share
-    first_failure    status and status_text of the first that is lost, or why
-                     there is no model; null if there is none
-  attractors         one per number:
+                     connects along the parameter
+  transients         chaos that is no attractor, since some of the motions
+                     watched on it ended on a cycle: value, starts and share of
+                     the first states that were still in it, motions, ended,
+                     periods of all together, lifetime with its interval (of
+                     95 % confidence), and attractor, the number of the one that
+                     it ends on and that its starts count for
+  ranges             one per attractor:
     first, last      values at which it was met first and last
-    birth, death     the values between which it begins and ends, and the number
-                     of the attractor to which a motion jumps beyond; null at
-                     the ends of the range
+    birth_low, birth_high, death_low, death_high
+                     the values between which it begins and ends; null at the
+                     ends of the range
+    birth_to, death_to
+                     the attractor to which a motion jumps beyond, null if not
+                     known
   loops              of hysteresis:
     from, to         first and last value at which the ways differ
     up, down         numbers of the attractors on the way up and on the way down
     period_up, period_down
                      their periods where they jump; null if not periodic
-    jump_up, jump_down
+    jump_up_low, jump_up_high, jump_down_low, jump_down_high
                      between which values they jump; null if they do not
+  rows               one per value: undecided and lost, the share of first
+                     states that came to no attractor, since they were still on
+                     their way or their run ended early, each with _starts, _low
+                     and _high; first_failure_status and _status_text of the
+                     first that is lost, or why there is no model; else null
   unfinished         motions that were still being carried when it took too
                      long; if not 0 an attractor may have several numbers
   periods_run, version, study (as resolved)
 
 Folder (--out):
   study.toml, attractors.json, attractors.csv (one line per value, attractor and
-  jumper), sections.csv (one per sample of these), transients.csv, loops.csv,
-  attractors.nc
-  (arrays over value and attractor: xarray.open_dataset), and the figure
-  attractors as SVG and PNG.
+  jumper), sections.csv (one per sample of these), transients.csv, ranges.csv,
+  loops.csv, rows.csv, attractors.nc (arrays over value and attractor:
+  xarray.open_dataset), and the figure attractors as SVG and PNG.
 
 Results are the same bits for any --threads.";
 

@@ -282,29 +282,195 @@ pub(crate) const BODY_FREQUENCY: Quantity = Quantity::new(
 );
 pub(crate) const BASE: Quantity = Quantity::new("base", "Base motion", "Hz");
 
-// Sweeps and the figures of the paper
+// Sweeps
 
-pub(crate) const PANEL: Quantity = Quantity::text("panel", "Panel of the figure");
 pub(crate) const PASS: Quantity = number("pass", "Way through the values");
-pub(crate) const PASS_TEXT: Quantity = Quantity::text(
-    "pass_text",
-    "Way through the values: up, down, or its first state",
-);
 pub(crate) const DIRECTION: Quantity = Quantity::one_of(
     "direction",
     "Up and down carry the state on; start begins anew at each value",
     &["up", "down", "start"],
 );
-pub(crate) const START_Z: Quantity = number(
-    "start_z",
-    "First height over eta, where it begins anew at each value",
+pub(crate) const START_Z: Quantity = number("start_z", "First height over eta");
+pub(crate) const START_V: Quantity = number("start_v", "First velocity over eta omega_h");
+pub(crate) const SAMPLE: Quantity = number(
+    "sample",
+    "Forcing period of the record, at whose end cos(Omega t) = 1",
 );
-pub(crate) const START_V: Quantity = number(
-    "start_v",
-    "First velocity over eta omega_h, where it begins anew at each value",
+pub(crate) const LABEL: Quantity = Quantity::one_of(
+    "label",
+    "Kind of the motion that goes on from the last state",
+    &["none", "periodic", "quasi-periodic", "chaotic", "undecided"],
 );
-pub(crate) const RECORD_SAMPLE: Quantity = number("sample", "Forcing period of the record");
 
+// Attractors
+
+/// In the unit of the parameter.
+const fn of_parameter(name: &'static str, meaning: &'static str) -> Quantity {
+    Quantity::new(name, meaning, "")
+}
+
+pub(crate) const VALUE: Quantity = of_parameter("value", "Value of the parameter");
+pub(crate) const ATTRACTOR: Quantity = number(
+    "attractor",
+    "Number of the attractor, which stays along the parameter",
+);
+pub(crate) const STARTS_ASKED: Quantity = number("starts_asked", "First states at each value");
+pub(crate) const UNSEEN: Quantity = number(
+    "unseen",
+    "With 95 % confidence a basin that no first state met has a smaller part of the box",
+);
+pub(crate) const UNFINISHED: Quantity = number(
+    "unfinished",
+    "Motions still carried on when it took too long; if not 0, an attractor may have several numbers",
+);
+pub(crate) const STARTS: Quantity = number(
+    "starts",
+    "First states that lead to it; 0 if it was met from another value alone",
+);
+pub(crate) const SHARE: Quantity = number("share", "Share of the first states");
+pub(crate) const SHARE_LOW: Quantity =
+    number("share_low", "Lower end of its 95 % confidence interval");
+pub(crate) const SHARE_HIGH: Quantity =
+    number("share_high", "Upper end of its 95 % confidence interval");
+pub(crate) const ATTRACTOR_KIND: Quantity = Quantity::one_of(
+    "kind",
+    "Kind of the motion",
+    &[
+        "not-met",
+        "periodic",
+        "quasi-periodic",
+        "chaotic",
+        "not-periodic",
+    ],
+);
+pub(crate) const LARGEST_MULTIPLIER: Quantity = number(
+    "multiplier",
+    "Largest modulus of the Floquet multipliers of a cycle",
+);
+pub(crate) const LARGEST_EXPONENT: Quantity = number(
+    "exponent",
+    "Largest Lyapunov exponent per forcing period, where there is no cycle",
+);
+pub(crate) const WATCHED_MOTIONS: Quantity = number(
+    "watched_motions",
+    "Motions watched on chaos, none of which left it",
+);
+pub(crate) const WATCHED_PERIODS: Quantity = number(
+    "watched_periods",
+    "Forcing periods of chaos of all watched motions",
+);
+pub(crate) const LIFETIME_LOW: Quantity = number(
+    "lifetime_low",
+    "Forcing periods that the mean lifetime of chaos exceeds with 95 % confidence",
+);
+pub(crate) const MOTION: Quantity = number("motion", "Attractors of all values");
+pub(crate) const MOTION_ATTRACTOR: Quantity = ATTRACTOR.named("motion_attractor");
+pub(crate) const CONNECTED_SAMPLE: Quantity = number(
+    "sample",
+    "Samples at cos(Omega t) = 1; those of a cycle connect along the parameter",
+);
+pub(crate) const TRANSIENT_STARTS: Quantity = number(
+    "transient_starts",
+    "First states that were in it when their search was over",
+);
+pub(crate) const TRANSIENT_SHARE: Quantity = SHARE.named("transient_share");
+pub(crate) const TRANSIENT_SHARE_LOW: Quantity = SHARE_LOW.named("transient_share_low");
+pub(crate) const TRANSIENT_SHARE_HIGH: Quantity = SHARE_HIGH.named("transient_share_high");
+pub(crate) const TRANSIENT_ATTRACTOR: Quantity = number(
+    "transient_attractor",
+    "Attractor that they count for: most watched motions ended on it",
+);
+pub(crate) const TRANSIENT_MOTIONS: Quantity =
+    number("transient_motions", "Motions watched on chaos");
+pub(crate) const TRANSIENT_ENDED: Quantity =
+    number("transient_ended", "Watched motions that left it");
+pub(crate) const TRANSIENT_PERIODS: Quantity = WATCHED_PERIODS.named("transient_periods");
+pub(crate) const TRANSIENT_LIFETIME: Quantity =
+    number("transient_lifetime", "Mean lifetime in forcing periods");
+pub(crate) const TRANSIENT_LIFETIME_LOW: Quantity = SHARE_LOW.named("transient_lifetime_low");
+pub(crate) const TRANSIENT_LIFETIME_HIGH: Quantity = SHARE_HIGH.named("transient_lifetime_high");
+pub(crate) const FIRST: Quantity = of_parameter("first", "First value at which it was met");
+pub(crate) const LAST: Quantity = of_parameter("last", "Last value at which it was met");
+pub(crate) const BIRTH_LOW: Quantity = of_parameter(
+    "birth_low",
+    "Lower end of the values between which it begins; none at the first value",
+);
+pub(crate) const BIRTH_HIGH: Quantity = of_parameter(
+    "birth_high",
+    "Upper end of the values between which it begins",
+);
+pub(crate) const BIRTH_TO: Quantity = number(
+    "birth_to",
+    "Attractor that its motion jumps to when carried on below, 0 if that is not known",
+);
+pub(crate) const DEATH_LOW: Quantity = of_parameter(
+    "death_low",
+    "Lower end of the values between which it ends; none at the last value",
+);
+pub(crate) const DEATH_HIGH: Quantity = of_parameter(
+    "death_high",
+    "Upper end of the values between which it ends",
+);
+pub(crate) const DEATH_TO: Quantity = number(
+    "death_to",
+    "Attractor that its motion jumps to when carried on above, 0 if that is not known",
+);
+pub(crate) const LOOP_FROM: Quantity =
+    of_parameter("loop_from", "First value at which the two ways differ");
+pub(crate) const LOOP_TO: Quantity =
+    of_parameter("loop_to", "Last value at which the two ways differ");
+pub(crate) const LOOP_UP: Quantity = number("loop_up", "Attractor of a motion carried upwards");
+pub(crate) const LOOP_DOWN: Quantity =
+    number("loop_down", "Attractor of a motion carried downwards");
+pub(crate) const LOOP_PERIOD_UP: Quantity = number(
+    "loop_period_up",
+    "Period where the motion carried upwards jumps, in forcing periods; 0 if it has none",
+);
+pub(crate) const LOOP_PERIOD_DOWN: Quantity = number(
+    "loop_period_down",
+    "Period where the motion carried downwards jumps, in forcing periods; 0 if it has none",
+);
+pub(crate) const LOOP_JUMP_UP_LOW: Quantity = of_parameter(
+    "loop_jump_up_low",
+    "Lower end of the values between which the motion carried upwards jumps; none if it does not",
+);
+pub(crate) const LOOP_JUMP_UP_HIGH: Quantity = of_parameter(
+    "loop_jump_up_high",
+    "Upper end of the values between which the motion carried upwards jumps",
+);
+pub(crate) const LOOP_JUMP_DOWN_LOW: Quantity = of_parameter(
+    "loop_jump_down_low",
+    "Lower end of the values between which the motion carried downwards jumps; none if it does not",
+);
+pub(crate) const LOOP_JUMP_DOWN_HIGH: Quantity = of_parameter(
+    "loop_jump_down_high",
+    "Upper end of the values between which the motion carried downwards jumps",
+);
+pub(crate) const UNDECIDED_STARTS: Quantity =
+    number("undecided_starts", "First states left undecided");
+pub(crate) const UNDECIDED: Quantity =
+    number("undecided", "Share of the first states left undecided");
+pub(crate) const UNDECIDED_LOW: Quantity = SHARE_LOW.named("undecided_low");
+pub(crate) const UNDECIDED_HIGH: Quantity = SHARE_HIGH.named("undecided_high");
+pub(crate) const LOST_STARTS: Quantity =
+    number("lost_starts", "First states whose run ended early");
+pub(crate) const LOST: Quantity = number("lost", "Share of the first states whose run ended early");
+pub(crate) const LOST_LOW: Quantity = SHARE_LOW.named("lost_low");
+pub(crate) const LOST_HIGH: Quantity = SHARE_HIGH.named("lost_high");
+pub(crate) const FIRST_FAILURE_STATUS: Quantity = Quantity::text(
+    "first_failure_status",
+    "How the first of these runs ended, or that there is no model",
+);
+pub(crate) const FIRST_FAILURE_STATUS_TEXT: Quantity =
+    Quantity::text("first_failure_status_text", "The same in a sentence");
+
+// The figures of the paper
+
+pub(crate) const PANEL: Quantity = Quantity::text("panel", "Panel of the figure");
+pub(crate) const PASS_TEXT: Quantity = Quantity::text(
+    "pass_text",
+    "Way through the values: up, down, or its first state",
+);
 const RATIO: Quantity = number("frequency_ratio", "Frequency of the base over omega_h");
 const DAMPING: Quantity = number("damping_ratio", "Damping ratio zeta_h of the person");
 const STRETCH: &str = "between these damping ratios all multipliers of the cycle lie inside the \

@@ -64,36 +64,38 @@ fn a_census_finds_both_attractors_and_bounds_the_rest() {
             .args(sets(&known)),
     );
     assert_eq!(found["parameter"], Value::Null);
-    assert_eq!(found["starts"], 128);
+    assert_eq!(found["starts_asked"], 128);
     assert_eq!(number(&found["unseen"]), 3.0 / 128.0);
     assert_eq!(list(&found["loops"]).len(), 0);
     let [row] = &list(&found["rows"])[..] else {
         panic!("{found}")
     };
     assert_eq!(row["value"], Value::Null);
-    let there = list(&row["attractors"]);
+    let there = list(&found["attractors"]);
     assert_eq!(there.len(), 2, "two 2-cycles coexist: {there:?}");
     let mut counted = 0;
     // 4096 first states of this box: 97.0 % and 3.0 %
     for (place, (one, true_share)) in there.iter().zip([0.970, 0.030]).enumerate() {
-        assert_eq!(one["number"], place + 1);
+        assert_eq!(one["attractor"], place + 1);
         assert_eq!(one["period"], 2);
-        let [share, low, high] = [0, 1, 2].map(|part| number(&one["share"][part]));
+        let [share, low, high] = ["share", "share_low", "share_high"].map(|key| number(&one[key]));
         assert!(low < share && share < high);
         assert!(low < true_share && true_share < high, "{low} {high}");
-        let z = list(&one["z"]);
+        let section = &list(&found["sections"])[place];
+        assert_eq!(section["attractor"], place + 1);
+        let z = list(&section["z"][0]);
         assert!(z.len() == 2 && number(&z[0]) < number(&z[1]));
-        assert!((0.0..1.0).contains(&number(&one["contact_ratio"])));
-        assert!(number(&one["peak_reaction"]) > 1.0);
+        assert!((0.0..1.0).contains(&number(&one["contact_ratio"][0])));
+        assert!(number(&one["peak_reaction"][0]) > 1.0);
         assert_eq!(one["kind"], "periodic");
         assert!((0.0..1.0).contains(&number(&one["multiplier"])));
-        assert_eq!(one["survival"], Value::Null);
+        assert_eq!(one["watched_motions"], Value::Null);
         counted += one["starts"].as_u64().unwrap();
     }
-    let without = ["undecided", "lost"].map(|key| row[key]["starts"].as_u64().unwrap());
+    let without = ["undecided_starts", "lost_starts"].map(|key| row[key].as_u64().unwrap());
     assert_eq!(counted + without[0] + without[1], 128);
-    assert_eq!(row["first_failure"], Value::Null);
-    assert_eq!(list(&row["transients"]).len(), 0);
+    assert_eq!(row["first_failure_status"], Value::Null);
+    assert_eq!(list(&found["transients"]).len(), 0);
 }
 
 #[test]
@@ -119,16 +121,14 @@ fn chaos_that_ends_is_told_with_its_lifetime_in_every_format() {
     assert!(text.contains("stable, largest multiplier 0."), "{text}");
     let found = files(&desk.path("out"));
     let document: Value = serde_json::from_slice(&found["attractors.json"]).unwrap();
-    let [row] = &list(&document["rows"])[..] else {
+    let kinds = list(&document["attractors"]).iter().map(|one| &one["kind"]);
+    assert!(kinds.clone().count() > 0 && kinds.clone().all(|kind| kind == "periodic"));
+    let [chaos] = &list(&document["transients"])[..] else {
         panic!("{document}")
     };
-    let kinds = list(&row["attractors"]).iter().map(|one| &one["kind"]);
-    assert!(kinds.clone().count() > 0 && kinds.clone().all(|kind| kind == "periodic"));
-    let [chaos] = &list(&row["transients"])[..] else {
-        panic!("{row}")
-    };
     assert!(number(&chaos["ended"]) > 0.0 && chaos["motions"] == 8);
-    let [mean, low, high] = [0, 1, 2].map(|part| number(&chaos["lifetime"][part]));
+    let lifetime = ["lifetime", "lifetime_low", "lifetime_high"];
+    let [mean, low, high] = lifetime.map(|key| number(&chaos[key]));
     assert!(low < mean && mean < high && mean < 1e5, "{chaos}");
     let table = String::from_utf8(found["transients.csv"].clone()).unwrap();
     let line = table.lines().last().unwrap();
@@ -146,7 +146,8 @@ fn a_short_sweep_finds_the_known_loop() {
     let [one] = &list(&found["loops"])[..] else {
         panic!("{}", found["loops"])
     };
-    let [up, down] = ["jump_up", "jump_down"].map(|key| [0, 1].map(|end| number(&one[key][end])));
+    let jump = |way: &str| ["low", "high"].map(|end| number(&one[format!("jump_{way}_{end}")]));
+    let [up, down] = ["up", "down"].map(jump);
     assert!(down[0] < 0.22 && 0.215 < down[1], "{down:?}");
     assert!(up[0] < 0.283 && 0.278 < up[1], "{up:?}");
     assert_eq!(
@@ -154,28 +155,33 @@ fn a_short_sweep_finds_the_known_loop() {
         (&2.into(), &2.into())
     );
     let [upwards, downwards] = ["up", "down"].map(|key| one[key].as_u64().unwrap());
-    let spans = list(&found["attractors"]);
-    assert_eq!(spans.len(), 2);
-    let death = &spans[upwards as usize - 1]["death"];
-    assert_eq!(death["to"], downwards);
-    assert_eq!(death["between"], one["jump_up"]);
-    let birth = &spans[downwards as usize - 1]["birth"];
-    assert_eq!(birth["to"], upwards);
-    assert_eq!(birth["between"], one["jump_down"]);
-    assert_eq!(birth["between"][1], one["from"]);
+    let ranges = list(&found["ranges"]);
+    assert_eq!(ranges.len(), 2);
+    let death = &ranges[upwards as usize - 1];
+    assert_eq!(death["death_to"], downwards);
+    assert_eq!(
+        (&death["death_low"], &death["death_high"]),
+        (&one["jump_up_low"], &one["jump_up_high"])
+    );
+    let birth = &ranges[downwards as usize - 1];
+    assert_eq!(birth["birth_to"], upwards);
+    assert_eq!(
+        (&birth["birth_low"], &birth["birth_high"]),
+        (&one["jump_down_low"], &one["jump_down_high"])
+    );
+    assert_eq!(birth["birth_high"], one["from"]);
 }
 
 #[test]
 fn samples_of_a_cycle_connect_along_the_parameter() {
     let found = followed(&Desk::new(), &LOOP, &[]);
-    let rows = list(&found["rows"]).iter();
-    let all: Vec<&Value> = rows.flat_map(|row| list(&row["attractors"])).collect();
     let mut pairs = 0;
     for number_ in 1..=2 {
-        let its: Vec<&Vec<Value>> = all
+        let its: Vec<&Vec<Value>> = list(&found["sections"])
             .iter()
-            .filter(|one| one["number"] == number_ && one["period"] == 2)
-            .map(|one| list(&one["z"]))
+            .filter(|one| one["attractor"] == number_)
+            .map(|one| list(&one["z"][0]))
+            .filter(|z| z.len() == 2)
             .collect();
         for pair in its.windows(2) {
             let apart = |other: usize| (number(&pair[0][0]) - number(&pair[1][other])).abs();
@@ -198,16 +204,20 @@ fn one_attractor_has_one_number_and_no_loop() {
     ];
     let found = followed(&Desk::new(), &alone, &[]);
     assert_eq!(found["loops"], serde_json::json!([]));
-    let [only] = &list(&found["attractors"])[..] else {
-        panic!("{}", found["attractors"])
+    let [only] = &list(&found["ranges"])[..] else {
+        panic!("{}", found["ranges"])
     };
     let expected = serde_json::json!({
-        "number": 1, "first": 0.2, "last": 0.5, "birth": null, "death": null
+        "attractor": 1, "first": 0.2, "last": 0.5,
+        "birth_low": null, "birth_high": null, "birth_to": null,
+        "death_low": null, "death_high": null, "death_to": null,
     });
     assert_eq!(only, &expected);
-    for row in list(&found["rows"]) {
-        assert_eq!(row["attractors"][0]["period"], 1);
-        assert_eq!(row["attractors"][0]["starts"], 8);
+    let there = list(&found["attractors"]);
+    assert_eq!(there.len(), list(&found["rows"]).len());
+    for one in there {
+        assert_eq!(one["period"], 1);
+        assert_eq!(one["starts"], 8);
     }
 }
 
@@ -231,6 +241,8 @@ fn out_is_a_whole_folder_and_threads_do_not_change_a_bit() {
             "attractors.png",
             "attractors.svg",
             "loops.csv",
+            "ranges.csv",
+            "rows.csv",
             "saltus-result.json",
             "sections.csv",
             "study.toml",
@@ -243,19 +255,17 @@ fn out_is_a_whole_folder_and_threads_do_not_change_a_bit() {
         let text = String::from_utf8(found[name].clone()).unwrap();
         text.lines().filter(|line| !line.starts_with('#')).count() - 1
     };
-    let attractors = list(&printed["rows"])
-        .iter()
-        .map(|row| list(&row["attractors"]));
-    let samples = |all: &Vec<Value>| all.iter().map(|one| list(&one["z"]).len()).sum::<usize>();
-    assert_eq!(
-        lines("attractors.csv"),
-        attractors.clone().map(Vec::len).sum::<usize>()
-    );
-    assert_eq!(
-        lines("sections.csv"),
-        attractors.map(samples).sum::<usize>()
-    );
-    assert_eq!(lines("loops.csv"), 1);
+    let sections = list(&printed["sections"]).iter();
+    let samples: usize = sections.map(|one| list(&one["z"][0]).len()).sum();
+    for (name, rows) in [
+        ("attractors.csv", list(&printed["attractors"]).len()),
+        ("sections.csv", samples),
+        ("loops.csv", 1),
+        ("ranges.csv", 2),
+        ("rows.csv", 7),
+    ] {
+        assert_eq!(lines(name), rows, "{name}");
+    }
     let svg = String::from_utf8(found["attractors.svg"].clone()).unwrap();
     for label in [
         "2: 2T",
@@ -314,11 +324,14 @@ fn two_people_have_lists_of_their_own() {
         "attractors.starts=2",
     ];
     let found = followed(&desk, &more, &["--out", &desk.str("out")]);
-    let one = &found["rows"][0]["attractors"][0];
-    for key in ["z", "v", "contact_ratio", "peak_reaction"] {
+    let (one, section) = (&found["attractors"][0], &found["sections"][0]);
+    for key in ["contact_ratio", "peak_reaction"] {
         assert_eq!(list(&one[key]).len(), 2, "{key}");
     }
-    assert_eq!(list(&one["z"][0]).len(), list(&one["z"][1]).len());
+    for key in ["z", "v"] {
+        assert_eq!(list(&section[key]).len(), 2, "{key}");
+    }
+    assert_eq!(list(&section["z"][0]).len(), list(&section["z"][1]).len());
 }
 
 #[test]

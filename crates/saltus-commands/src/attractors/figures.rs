@@ -1,29 +1,31 @@
 //! The figure of attractors: sections in one colour for each, and below it the shares of their basins.
 
-use super::Run;
-use super::report::{Attractor, Report, Share};
+use super::data::share;
+use super::{Found, name};
 use crate::per_jumper::{PANELS, panel_title};
 use crate::words::{base_in_title, capitalized};
-use saltus::study::Fraction;
+use saltus::study::{Counted, Fraction};
 use saltus_config::Parameter;
 use saltus_results::{Axis, Cloud, Colour, Curves, Figure, Panel};
 use std::cmp::Reverse;
 
-pub(super) fn attractors(run: &Run, report: &Report) -> Figure {
-    let shown = run.study.jumper.len().min(PANELS);
-    let series = Series::all(run, report);
-    let panels: Vec<Panel> = match &run.parameter {
+pub(super) fn attractors(found: &Found) -> Figure {
+    let shown = found.jumpers().min(PANELS);
+    let series = Series::all(found);
+    let panels: Vec<Panel> = match &found.parameter {
         Some(parameter) => {
-            let clouds = (0..shown).map(|i| cloud(run, parameter, &series, i).into());
+            let clouds = (0..shown).map(|i| cloud(found, parameter, &series, i).into());
             clouds
-                .chain([shares(run, parameter, &series, report).into()])
+                .chain([shares(found, parameter, &series).into()])
                 .collect()
         }
-        None => (0..shown).map(|i| plane(run, &series, i).into()).collect(),
+        None => (0..shown)
+            .map(|i| plane(found, &series, i).into())
+            .collect(),
     };
-    let base = base_in_title(&run.study, run.parameter.as_ref());
-    let each = run.parameter.as_ref().map_or("", |_| " per value");
-    let starts = report.starts;
+    let base = base_in_title(&found.study, found.parameter.as_ref());
+    let each = found.parameter.as_ref().map_or("", |_| " per value");
+    let starts = found.study.attractors.starts;
     let title = format!("Attractors: {base}{starts} quasi-random first states{each}");
     match <[Panel; 1]>::try_from(panels) {
         Ok([only]) => Figure::new(only).title(title),
@@ -31,32 +33,32 @@ pub(super) fn attractors(run: &Run, report: &Report) -> Figure {
     }
 }
 
-/// What is drawn in one colour: an attractor, or all that there is no colour for.
+/// A set of motions in one colour: those of an attractor, or of all that there is no colour for.
 struct Series<'a> {
     label: String,
     colour: Colour,
     /// With the places of their values.
-    points: Vec<(usize, &'a Attractor)>,
+    points: Vec<(usize, &'a Counted)>,
 }
 
 impl<'a> Series<'a> {
     /// Those that most first states led to have colours of their own.
-    fn all(run: &Run, report: &'a Report) -> Vec<Self> {
-        let count = report.attractors.len();
-        let mut its: Vec<Vec<(usize, &Attractor)>> = vec![Vec::new(); count];
-        for (place, row) in report.rows.iter().enumerate() {
-            for one in &row.attractors {
-                its[one.number - 1].push((place, one));
+    fn all(found: &'a Found) -> Vec<Self> {
+        let count = found.all.identities.len();
+        let mut its: Vec<Vec<(usize, &Counted)>> = vec![Vec::new(); count];
+        for (place, row) in found.all.rows.iter().enumerate() {
+            for one in row.attractors() {
+                its[one.identity].push((place, one));
             }
         }
-        let starts = |identity: &usize| its[*identity].iter().map(|(_, one)| one.drawn.starts);
+        let starts = |identity: &usize| its[*identity].iter().map(|(_, one)| one.fraction.count);
         let mut order: Vec<usize> = (0..count).collect();
         order.sort_by_key(|identity| Reverse(starts(identity).sum::<u64>()));
         let (own, rest) = order.split_at(count.min(Colour::ATTRACTORS.len()));
         let mut own = own.to_vec();
         own.sort_unstable();
         let series = |(&identity, colour): (&usize, Colour)| Series {
-            label: label(run, identity, &its[identity]),
+            label: label(found, identity, &its[identity]),
             colour,
             points: its[identity].clone(),
         };
@@ -73,44 +75,40 @@ impl<'a> Series<'a> {
     fn shares(&self, values: usize, of: u64) -> Vec<[f64; 3]> {
         let mut counts = vec![None; values];
         for &(place, one) in &self.points {
-            *counts[place].get_or_insert(0) += one.drawn.starts;
+            *counts[place].get_or_insert(0) += one.fraction.count;
         }
-        let share = |count: Option<u64>| {
-            count.map_or([f64::NAN; 3], |count| {
-                Share::from(Fraction { count, of }).share
-            })
-        };
+        let share =
+            |count: Option<u64>| count.map_or([f64::NAN; 3], |count| share(Fraction { count, of }));
         counts.into_iter().map(share).collect()
     }
 
     /// All samples of a jumper with the places of their values.
     fn samples(&self, jumper: usize) -> impl Iterator<Item = (usize, [f64; 2])> {
         self.points.iter().flat_map(move |(place, one)| {
-            let (z, v) = (one.z.as_slice().get(jumper), one.v.as_slice().get(jumper));
-            let samples = z.into_iter().flatten().zip(v.into_iter().flatten());
-            samples.map(|(&z, &v)| (*place, [z, v]))
+            let samples = one.arrival.section.get(jumper).into_iter().flatten();
+            samples.map(|&sample| (*place, sample))
         })
     }
 }
 
 /// With its share where it has but one.
-fn label(run: &Run, identity: usize, its: &[(usize, &Attractor)]) -> String {
-    match (its, &run.parameter) {
+fn label(found: &Found, identity: usize, its: &[(usize, &Counted)]) -> String {
+    match (its, &found.parameter) {
         ([(_, one)], None) => {
-            let [share, low, high] = one.drawn.share.map(|share| 100.0 * share);
-            let kind = one.name();
+            let [share, low, high] = share(one.fraction).map(|share| 100.0 * share);
+            let kind = name(one);
             format!(
                 "{}: {kind}, {share:.1} % ({low:.1} to {high:.1} %)",
                 identity + 1
             )
         }
-        _ => format!("{}: {}", identity + 1, run.kinds(identity)),
+        _ => format!("{}: {}", identity + 1, found.kinds(identity)),
     }
 }
 
 /// The axis of the parameter, the same for all panels.
-fn axis(run: &Run, parameter: &Parameter) -> Axis {
-    let values = run.found.rows.iter().map(|row| row.value);
+fn axis(found: &Found, parameter: &Parameter) -> Axis {
+    let values = found.values().into_iter();
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
         (low.min(value), high.max(value))
     });
@@ -118,18 +116,18 @@ fn axis(run: &Run, parameter: &Parameter) -> Axis {
     Axis::new(capitalized(&parameter.label())).range(low - margin, high + margin)
 }
 
-fn cloud(run: &Run, parameter: &Parameter, series: &[Series], jumper: usize) -> Cloud {
+fn cloud(found: &Found, parameter: &Parameter, series: &[Series], jumper: usize) -> Cloud {
     let cloud = Cloud::new(
-        panel_title(jumper, run.study.jumper.len()),
-        axis(run, parameter),
+        panel_title(jumper, found.jumpers()),
+        axis(found, parameter),
         Axis::new("Height z/η at cos Ωt = 1 (-)"),
     );
     series
         .iter()
-        .fold(cloud.apart_over(run.found.rows.len()), |cloud, one| {
+        .fold(cloud.apart_over(found.all.rows.len()), |cloud, one| {
             let points = one
                 .samples(jumper)
-                .map(|(place, [z, _])| (run.found.rows[place].value, z));
+                .map(|(place, [z, _])| (found.all.rows[place].value, z));
             let (values, heights): (Vec<f64>, Vec<f64>) = points.unzip();
             cloud.series(&one.label, values, heights).colour(one.colour)
         })
@@ -138,15 +136,15 @@ fn cloud(run: &Run, parameter: &Parameter, series: &[Series], jumper: usize) -> 
 /// Values whose dots and bars have room beside each other.
 const ROOMY: usize = 120;
 
-fn shares(run: &Run, parameter: &Parameter, series: &[Series], report: &Report) -> Curves {
+fn shares(found: &Found, parameter: &Parameter, series: &[Series]) -> Curves {
     let plot = Curves::new(
         "",
-        axis(run, parameter),
+        axis(found, parameter),
         Axis::new("Part of the first states (-)").range(-0.02, 1.02),
     );
-    let values: Vec<f64> = run.found.rows.iter().map(|row| row.value).collect();
+    let values = found.values();
     let plot = series.iter().fold(plot, |plot, one| {
-        let parts = one.shares(values.len(), report.starts.into());
+        let parts = one.shares(values.len(), found.study.attractors.starts.into());
         let part = |part: usize| parts.iter().map(|share| share[part]).collect::<Vec<f64>>();
         let interval = "95 % confidence interval";
         match values.len() > ROOMY {
@@ -160,14 +158,15 @@ fn shares(run: &Run, parameter: &Parameter, series: &[Series], report: &Report) 
                 .bars(interval, part(1), part(2)),
         }
     });
-    hysteresis(run, without_attractor(plot, report))
+    hysteresis(found, without_attractor(found, plot))
 }
 
 /// Where some first states led to no attractor, how many.
-fn without_attractor(plot: Curves, report: &Report) -> Curves {
-    let none = report.rows.iter().filter_map(|row| {
-        let share = row.undecided.share[0] + row.lost.share[0];
-        Some((row.value?, share)).filter(|_| share > 0.0)
+fn without_attractor(found: &Found, plot: Curves) -> Curves {
+    let none = found.all.rows.iter().filter_map(|row| {
+        let census = row.census.as_ref().ok()?;
+        let share = census.undecided.value() + census.lost.value();
+        Some((found.value(row)?, share)).filter(|_| share > 0.0)
     });
     let (values, none): (Vec<f64>, Vec<f64>) = none.unzip();
     if none.is_empty() {
@@ -177,12 +176,12 @@ fn without_attractor(plot: Curves, report: &Report) -> Curves {
         .colour(Colour::UNDECIDED)
 }
 
-fn hysteresis(run: &Run, plot: Curves) -> Curves {
-    if run.found.loops.is_empty() {
+fn hysteresis(found: &Found, plot: Curves) -> Curves {
+    if found.all.loops.is_empty() {
         return plot;
     }
     let middle = |jump: Option<[f64; 2]>| jump.map(|[low, high]| 0.5 * (low + high));
-    let loops = run.found.loops.iter().map(|one| {
+    let loops = found.all.loops.iter().map(|one| {
         let from = middle(one.jump_down).unwrap_or(one.from);
         (from, middle(one.jump_up).unwrap_or(one.to))
     });
@@ -190,9 +189,9 @@ fn hysteresis(run: &Run, plot: Curves) -> Curves {
 }
 
 /// Sections in the plane of height and velocity, cycles on top of what is not periodic.
-fn plane(run: &Run, series: &[Series], jumper: usize) -> Curves {
+fn plane(found: &Found, series: &[Series], jumper: usize) -> Curves {
     let plot = Curves::new(
-        panel_title(jumper, run.study.jumper.len()),
+        panel_title(jumper, found.jumpers()),
         Axis::new("Height z/η at cos Ωt = 1 (-)"),
         Axis::new("Velocity ż/(η ω_h) at cos Ωt = 1 (-)"),
     );

@@ -1,33 +1,29 @@
 //! `saltus attractors`: all coexisting attractors, in one place or matched along a parameter.
 
-mod dataset;
-mod evidence;
+mod data;
 mod figures;
-mod report;
+mod ranges;
 mod section;
 mod summary;
-mod tables;
 
-use crate::answer::{Answer, Take, stream_json};
+use crate::answer::{Answer, Take};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::models::Models;
 use crate::plane::{self, Loss};
-use crate::store::Store;
-use report::Report;
 use saltus::orbits::MotionKind;
-use saltus::study::{Control, Lineages, Row, Search, Starts};
+use saltus::study::{Control, Counted, Lineages, Row, Search, Starts, Transient};
 use saltus_config::{Parameter, Study};
 use saltus_results::Dataset;
-use std::io::{self, Write};
 use std::sync::atomic::Ordering;
 
 /// What was asked and found.
-struct Run {
+struct Found {
     study: Study,
-    /// What changes; without it there is one row, whose value means nothing.
+    /// Without a parameter there is one row, whose value means nothing.
     parameter: Option<Parameter>,
-    found: Lineages,
+    /// Samples of their cycles connect along the parameter.
+    all: Lineages,
     periods_run: u64,
 }
 
@@ -36,11 +32,12 @@ pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, F
     let (parameter, values) = question(study)?;
     refuse_if_too_many(study, values.len())?;
     let control = context.control(study);
-    let found = followed(study, parameter.as_ref(), &values, &control, context)?;
-    Ok(Box::new(Run {
+    let mut all = followed(study, parameter.as_ref(), &values, &control, context)?;
+    section::connect(&mut all);
+    Ok(Box::new(Found {
         study: study.clone(),
         parameter,
-        found,
+        all,
         periods_run: control.done.load(Ordering::Relaxed),
     }))
 }
@@ -163,46 +160,58 @@ fn refuse_if_all_lost(rows: &[Row]) -> Result<(), Failure> {
     Err(Failure::computation(format!("{what}: {reason}")))
 }
 
-impl Answer for Run {
+impl Answer for Found {
     fn study(&self) -> &Study {
         &self.study
     }
 
     fn data(&self) -> Dataset {
-        dataset::dataset(self, &Report::new(self))
-    }
-
-    fn draw(&self, _: Take) -> Result<(), Failure> {
-        Ok(())
+        data::data(self)
     }
 
     fn summary(&self) -> String {
-        summary::text(self, &Report::new(self))
+        summary::text(self)
     }
 
-    fn document(&self, _: &Dataset, to: &mut dyn Write) -> io::Result<()> {
-        stream_json(to, &Report::new(self))
-    }
-
-    fn fill(&self, store: &mut dyn Store, name: &str, data: Dataset) -> Result<(), Failure> {
-        let report = Report::new(self);
-        tables::write(store, self, &report)?;
-        store.put_dataset(name, data)?;
-        store.figure("attractors", &figures::attractors(self, &report))
+    fn draw(&self, take: Take) -> Result<(), Failure> {
+        take("attractors", &figures::attractors(self))
     }
 }
 
-impl Run {
-    /// A value of the parameter, if there is one.
-    fn value(&self, value: f64) -> Option<f64> {
-        self.parameter.as_ref().map(|_| value)
+impl Found {
+    fn jumpers(&self) -> usize {
+        self.study.jumper.len()
     }
 
-    /// What attractor `identity` is along the parameter: `1T to 4T, chaotic`.
+    /// The value of each row.
+    fn values(&self) -> Vec<f64> {
+        self.all.rows.iter().map(|row| row.value).collect()
+    }
+
+    /// A value of the parameter, if there is one.
+    fn value(&self, row: &Row) -> Option<f64> {
+        self.parameter.as_ref().map(|_| row.value)
+    }
+
+    /// The attractors of all rows, one after the other.
+    fn met(&self) -> impl Iterator<Item = (&Row, &Counted)> {
+        let all = self.all.rows.iter();
+        all.flat_map(|row| row.attractors().iter().map(move |one| (row, one)))
+    }
+
+    /// Chaos that ends, of all rows.
+    fn transients(&self) -> impl Iterator<Item = (&Row, &Transient)> + Clone {
+        self.all.rows.iter().flat_map(|row| {
+            let census = row.census.iter();
+            let all = census.flat_map(|census| &census.transients);
+            all.map(move |one| (row, one))
+        })
+    }
+
+    /// Kinds of attractor `identity` along the parameter: `1T to 4T, chaotic`.
     fn kinds(&self, identity: usize) -> String {
-        let all = self.found.rows.iter().flat_map(Row::attractors);
-        let its = all.filter(|counted| counted.identity == identity);
-        let kinds: Vec<MotionKind> = its.map(|counted| counted.entry.attractor.kind).collect();
+        let its = self.met().filter(|(_, one)| one.identity == identity);
+        let kinds: Vec<MotionKind> = its.map(|(_, one)| one.entry.attractor.kind).collect();
         let periods = kinds.iter().filter_map(|kind| kind.period());
         let ends = (periods.clone().min(), periods.max());
         let cycles = match ends {
@@ -222,4 +231,11 @@ impl Run {
             .collect();
         parts.join(", ")
     }
+}
+
+/// Kind of an attractor at one value: `2T`, or `chaotic`.
+fn name(one: &Counted) -> String {
+    let kind = one.entry.attractor.kind;
+    let period = kind.period().map(|n| format!("{n}T"));
+    period.unwrap_or_else(|| kind.name().to_owned())
 }

@@ -1,29 +1,28 @@
 //! Sections whose samples connect along the parameter: where a cycle was met says nothing.
 
-use saltus::study::{Counted, Lineages, Row};
+use saltus::study::Lineages;
 use std::collections::BTreeMap;
 
 /// Samples [z/eta, z'/(eta omega_h)] of each body.
-pub(super) type Section = Vec<Vec<[f64; 2]>>;
+type Section = Vec<Vec<[f64; 2]>>;
 
-/// The sections of all attractors, row by row. A cycle begins where it is nearest to the same attractor at the
-/// value before at which that was a cycle too; the first one with its lowest sample of the first jumper.
-pub(super) fn connected(found: &Lineages) -> Vec<Vec<Section>> {
+/// Rotates the section of each cycle so that it begins where it is nearest to the same attractor at the last value at
+/// which that was a cycle too; the first one begins with its lowest sample of the first jumper.
+pub(super) fn connect(found: &mut Lineages) {
     let mut before: BTreeMap<usize, Section> = BTreeMap::new();
-    let mut turned = |counted: &Counted| {
-        let mut section = counted.arrival.section.clone();
-        if counted.entry.attractor.kind.period().is_some() {
-            let turn = match before.get(&counted.identity) {
-                Some(before) => nearest(before, &section),
-                None => lowest(&section),
-            };
-            section.iter_mut().for_each(|body| body.rotate_left(turn));
-            before.insert(counted.identity, section.clone());
+    let rows = found.rows.iter_mut().flat_map(|row| &mut row.census);
+    for counted in rows.flat_map(|census| &mut census.attractors) {
+        if counted.entry.attractor.kind.period().is_none() {
+            continue;
         }
-        section
-    };
-    let row = |row: &Row| row.attractors().iter().map(&mut turned).collect();
-    found.rows.iter().map(row).collect()
+        let section = &mut counted.arrival.section;
+        let turn = match before.get(&counted.identity) {
+            Some(before) => nearest(before, section),
+            None => lowest(section),
+        };
+        section.iter_mut().for_each(|body| body.rotate_left(turn));
+        before.insert(counted.identity, section.clone());
+    }
 }
 
 fn samples(section: &Section) -> usize {

@@ -1,28 +1,30 @@
 //! What `saltus attractors` says to people.
 
-use super::Run;
-use super::evidence::Passing;
-use super::report::{Attractor, End, Loop, Report, Row, Share, name};
+use super::data::{exponent, first_failure, share};
+use super::{Found, name};
+use saltus::orbits::MotionKind;
+use saltus::study::{Census, Counted, Fraction, Hysteresis, Row, Transient, Turn};
 use std::fmt::Write;
 
 /// Lines of a list.
 const LISTED: usize = 12;
 
-pub(super) fn text(run: &Run, report: &Report) -> String {
-    let table = &run.study.attractors;
+pub(super) fn text(found: &Found) -> String {
+    let (table, all) = (&found.study.attractors, &found.all);
     let mut text = format!(
         "{} first states, z/η from {} to {} and ż/(η ω_h) from {} to {}",
-        report.starts, table.z[0], table.z[1], table.v[0], table.v[1]
+        table.starts, table.z[0], table.z[1], table.v[0], table.v[1]
     );
-    let lists = match &run.parameter {
+    let lists = match &found.parameter {
         None => {
-            let rows = || report.rows.iter();
-            let all = rows().flat_map(|row| &row.attractors).map(in_words);
-            let passing = rows().flat_map(|row| &row.transients);
-            vec![all.collect(), passing.map(Passing::in_words).collect()]
+            let met = found.met().map(|(_, one)| in_words(one));
+            let passing = found
+                .transients()
+                .map(|(row, one)| in_words_passing(row, one));
+            vec![met.collect(), passing.collect()]
         }
         Some(parameter) => {
-            let values = run.found.rows.iter().map(|row| short(row.value));
+            let values = all.rows.iter().map(|row| short(row.value));
             let mut ends = values.clone();
             let _ = write!(
                 text,
@@ -32,13 +34,12 @@ pub(super) fn text(run: &Run, report: &Report) -> String {
                 ends.next().unwrap_or(f64::NAN),
                 ends.next_back().unwrap_or(f64::NAN)
             );
-            let spans: Vec<String> = (0..report.attractors.len())
-                .map(|identity| span(run, report, identity))
-                .collect();
-            vec![spans, report.loops.iter().map(in_words_loop).collect()]
+            let ranges = 0..all.identities.len();
+            let ranges: Vec<String> = ranges.map(|identity| range(found, identity)).collect();
+            vec![ranges, all.loops.iter().map(in_words_loop).collect()]
         }
     };
-    let _ = writeln!(text, ": {} attractors", report.attractors.len());
+    let _ = writeln!(text, ": {} attractors", all.identities.len());
     for lines in lists {
         for line in lines.iter().take(LISTED) {
             // writing to a string cannot fail
@@ -48,67 +49,107 @@ pub(super) fn text(run: &Run, report: &Report) -> String {
             let _ = writeln!(text, "  and {} more", lines.len() - LISTED);
         }
     }
-    text + &doubts(report)
+    text + &doubts(found)
 }
 
-fn in_words(one: &Attractor) -> String {
+fn in_words(one: &Counted) -> String {
     let each = |list: &[f64]| {
         let list: Vec<String> = list.iter().map(|x| format!("{x:.3}")).collect();
         list.join(" and ")
     };
+    let motion = &one.entry.attractor;
     format!(
         "{:>3}  {}  {}, contact {}, peak reaction {}; {}",
-        one.number,
-        percent(one.drawn),
-        one.name(),
-        each(one.contact_ratio.as_slice()),
-        each(one.peak_reaction.as_slice()),
-        one.evidence.in_words()
+        one.identity + 1,
+        percent(one.fraction),
+        name(one),
+        each(&motion.contact_ratio),
+        each(&motion.peak_reaction),
+        evidence(one)
     )
 }
 
-fn percent(Share { share, .. }: Share) -> String {
-    let [value, low, high] = share.map(|share| 100.0 * share);
+fn percent(fraction: Fraction) -> String {
+    let [value, low, high] = share(fraction).map(|share| 100.0 * share);
     format!("{value:>5.1} % ({low:.1} to {high:.1} %)")
 }
 
-fn span(run: &Run, report: &Report, identity: usize) -> String {
-    let span = &report.attractors[identity];
-    let [first, last] = [span.first, span.last].map(|end| short(end.unwrap_or(f64::NAN)));
-    let end = |what: &str, end: &Option<End>| {
-        end.as_ref().map_or(String::new(), |end| {
-            let to = end
-                .to
-                .map_or(String::new(), |to| format!(", beyond on {to}"));
-            let [low, high] = end.between.map(short);
-            format!("; {what} between {low} and {high}{to}")
-        })
-    };
+/// What says that it is an attractor.
+fn evidence(one: &Counted) -> String {
+    if let Some(multiplier) = one.entry.attractor.multiplier {
+        return format!("stable, largest multiplier {multiplier:.4}");
+    }
+    let exponent = exponent(one).map(|e| {
+        let (mean, error) = (e.per_iterate, e.standard_error);
+        format!("exponent {mean:.4} ± {error:.4}")
+    });
+    let survival = one.survival.map(|seen| {
+        format!(
+            "none of {} motions left it in {} periods: lifetime above {:.0} with 95 % confidence",
+            seen.motions,
+            seen.periods,
+            seen.lifetime()[1]
+        )
+    });
+    let parts: Vec<String> = exponent.into_iter().chain(survival).collect();
+    parts.join(", ")
+}
+
+fn in_words_passing(row: &Row, one: &Transient) -> String {
+    let [mean, low, high] = one.survival.lifetime();
     format!(
-        "{:>3}  {first} to {last}: {}{}{}",
-        span.number,
-        run.kinds(identity),
-        end("begins", &span.birth),
-        end("ends", &span.death)
+        "     {} first states in chaos that ends: {} of {} motions left it, lifetime {mean:.0} periods \
+         ({low:.0} to {high:.0}); counted for {}",
+        one.fraction.count,
+        one.survival.ended,
+        one.survival.motions,
+        row.attractors()[one.to].identity + 1
     )
 }
 
-fn in_words_loop(one: &Loop) -> String {
+fn range(found: &Found, identity: usize) -> String {
+    let range = &found.all.identities[identity];
+    let end = |what: &str, turn: Option<Turn>| {
+        turn.map_or(String::new(), |turn| {
+            let to = turn.to.map(|to| format!(", beyond on {}", to + 1));
+            let [low, high] = turn.between.map(short);
+            format!(
+                "; {what} between {low} and {high}{}",
+                to.unwrap_or_default()
+            )
+        })
+    };
+    format!(
+        "{:>3}  {} to {}: {}{}{}",
+        identity + 1,
+        short(range.first),
+        short(range.last),
+        found.kinds(identity),
+        end("begins", range.birth),
+        end("ends", range.death)
+    )
+}
+
+fn in_words_loop(one: &Hysteresis) -> String {
     let jump = |jump: Option<[f64; 2]>| {
         jump.map_or("without a jump".to_owned(), |jump| {
             let [low, high] = jump.map(short);
             format!("jumps between {low} and {high}")
         })
     };
+    let cycle = |kind: MotionKind| {
+        let period = kind.period().map(|n| format!("{n}T"));
+        period.unwrap_or_else(|| "not periodic".to_owned())
+    };
     format!(
         "hysteresis from {} to {}: on {} ({}) upwards, {}; on {} ({}) downwards, {}",
         short(one.from),
         short(one.to),
-        one.up,
-        name(one.period_up),
+        one.up + 1,
+        cycle(one.kinds.0),
         jump(one.jump_up),
-        one.down,
-        name(one.period_down),
+        one.down + 1,
+        cycle(one.kinds.1),
         jump(one.jump_down)
     )
 }
@@ -118,13 +159,14 @@ fn short(x: f64) -> f64 {
     format!("{x:.5e}").parse().unwrap_or(x)
 }
 
-/// The largest share of what came to no attractor, and where, if there is any.
-fn worst(what: &str, report: &Report, of: fn(&Row) -> Share) -> String {
-    let all = report.rows.iter().map(|row| (of(row).share[0], row.value));
+/// The largest share of first states that came to no attractor, and where, if there are any.
+fn worst(what: &str, found: &Found, of: fn(&Census) -> Fraction) -> String {
+    let all = found.all.rows.iter();
+    let all = all.filter_map(|row| Some((of(row.census.as_ref().ok()?).value(), row)));
     let most = all.max_by(|a, b| a.0.total_cmp(&b.0));
     let some = most.filter(|(share, _)| *share > 0.0);
-    some.map_or(String::new(), |(share, value)| {
-        let place = value.map_or(String::new(), |value| {
+    some.map_or(String::new(), |(share, row)| {
+        let place = found.value(row).map_or(String::new(), |value| {
             format!(" at {}, the most at any value", short(value))
         });
         format!("  {:.1} % {what}{place}\n", 100.0 * share)
@@ -132,43 +174,39 @@ fn worst(what: &str, report: &Report, of: fn(&Row) -> Share) -> String {
 }
 
 /// Chaos that is no attractor, over a parameter.
-fn passing(report: &Report) -> String {
-    let rows = report.rows.iter().filter(|row| row.value.is_some());
-    let all = rows.flat_map(|row| row.transients.iter().map(move |one| (row, one)));
-    let longest = all.clone().max_by_key(|(_, one)| one.watched.periods);
+fn passing(found: &Found) -> String {
+    let all = found.transients();
+    let all = all.filter(|(row, _)| found.value(row).is_some());
+    let longest = all.clone().max_by_key(|(_, one)| one.survival.periods);
     longest.map_or(String::new(), |(row, one)| {
         format!(
             "  chaos that ends, at {} values; the longest at {}:\n{}\n",
             all.count(),
-            short(row.value.unwrap_or(f64::NAN)),
-            one.in_words()
+            short(row.value),
+            in_words_passing(row, one)
         )
     })
 }
 
 /// What was not decided, and what was not seen.
-fn doubts(report: &Report) -> String {
-    let mut text = passing(report);
-    text += &worst("undecided", report, |row| row.undecided);
-    text += &worst("lost", report, |row| row.lost);
-    let failed = report
-        .rows
-        .iter()
-        .find_map(|row| row.first_failure.as_ref());
-    if let Some(failure) = failed {
-        let _ = writeln!(text, "  first failure: {}", failure.status_text);
+fn doubts(found: &Found) -> String {
+    let mut text = passing(found);
+    text += &worst("undecided", found, |census| census.undecided);
+    text += &worst("lost", found, |census| census.lost);
+    if let Some(failure) = found.all.rows.iter().find_map(first_failure) {
+        let _ = writeln!(text, "  first failure: {}", failure.reason);
     }
-    if report.unfinished > 0 {
+    if found.all.unfinished > 0 {
         let _ = writeln!(
             text,
             "  {} motions were still being carried on: some attractors may have several numbers",
-            report.unfinished
+            found.all.unfinished
         );
     }
     let _ = writeln!(
         text,
         "Intervals are of 95 % confidence; a basin that no first state met has less than {:.1} % of the box.",
-        100.0 * report.unseen
+        100.0 * Fraction::unseen(found.study.attractors.starts.into())
     );
     text
 }

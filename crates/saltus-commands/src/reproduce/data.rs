@@ -59,7 +59,7 @@ fn fig2(results: &Results) -> Dataset {
         .coordinate(q::PANEL.along(tags))
         .coordinate(q::PASS.numbered(0, passes.len()))
         .coordinate(damping)
-        .coordinate(q::RECORD_SAMPLE.numbered(1, record))
+        .coordinate(q::SAMPLE.numbered(1, record))
         .variable(q::BASE_FREQUENCY.over(&over[..1], hertz));
     let set = self::passes(set, passes).variable(q::Z.over(&over, heights));
     let places = passes.len() * values.len() * record;

@@ -1,47 +1,47 @@
 //! The bifurcation diagram, and the exponents along it.
 
-use super::Run;
-use super::report::{LABELS, Rate, Report, Row};
+use super::data::labels;
+use super::{Found, Row};
 use crate::per_jumper::{PANELS, panel_title};
 use crate::words::{base_in_title, capitalized};
+use saltus::orbits::Exponent;
 use saltus::study::Pass;
 use saltus_results::{Axis, Cloud, Curves, Figure, Panel};
 
-pub(super) fn bifurcation(run: &Run) -> Figure {
-    let title = format!("Bifurcation diagram: {}", setting(run));
-    let shown = run.jumpers().min(PANELS);
+pub(super) fn bifurcation(found: &Found) -> Figure {
+    let title = format!("Bifurcation diagram: {}", setting(found));
+    let shown = found.jumpers().min(PANELS);
     if shown == 1 {
-        return Figure::new(cloud(run, 0, &title));
+        return Figure::new(cloud(found, 0, &title));
     }
-    let panels = (0..shown).map(|i| cloud(run, i, &panel_title(i, run.jumpers())).into());
+    let panels = (0..shown).map(|i| cloud(found, i, &panel_title(i, found.jumpers())).into());
     Figure::grid(1, panels).title(title)
 }
 
-fn setting(run: &Run) -> String {
-    let sweep = &run.sweep;
+fn setting(found: &Found) -> String {
+    let sweep = &found.sweep;
     format!(
         "{}{} forcing periods per value after {}",
-        base_in_title(&run.study, Some(&run.parameter)),
+        base_in_title(&found.study, Some(&found.parameter)),
         sweep.record,
         sweep.transient
     )
 }
 
-fn cloud(run: &Run, jumper: usize, title: &str) -> Cloud {
+fn cloud(found: &Found, jumper: usize, title: &str) -> Cloud {
     let cloud = Cloud::new(
         title,
-        Axis::new(capitalized(&run.parameter.label())),
+        Axis::new(capitalized(&found.parameter.label())),
         Axis::new("Height z/η at cos Ωt = 1 (-)"),
     );
-    let passes = run.sweep.passes.iter().enumerate();
+    let passes = found.sweep.passes.iter().enumerate();
     passes.fold(cloud, |cloud, (index, pass)| {
-        let rows = run.rows.iter().filter(|row| row.pass == index);
-        let points = rows.flat_map(|row| {
-            let heights = row.z.get(jumper).map_or(&[][..], Vec::as_slice);
-            heights.iter().map(|&z| (row.value, z))
+        let points = found.rows_of(index).flat_map(|row| {
+            let heights = row.run.z.get(jumper).map_or(&[][..], Vec::as_slice);
+            heights.iter().map(|&z| (row.run.value, z))
         });
         let (values, heights): (Vec<f64>, Vec<f64>) = points.unzip();
-        cloud.series(label(run, pass), values, heights)
+        cloud.series(label(found, pass), values, heights)
     })
 }
 
@@ -49,53 +49,49 @@ fn cloud(run: &Run, jumper: usize, title: &str) -> Cloud {
 const CURVES: usize = 7;
 
 /// One panel per pass: the exponents over the parameter, and behind them what the motion is.
-pub(super) fn exponents(run: &Run, report: &Report) -> Figure {
-    let count = run.table.exponents as usize;
+pub(super) fn exponents(found: &Found) -> Figure {
+    let count = found.table.exponents as usize;
     let which = match count {
         _ if count > CURVES => format!(" (the largest {CURVES} of {count})"),
         _ => String::new(),
     };
     let title = format!(
         "Lyapunov exponents{which}: {}{} forcing periods per value",
-        base_in_title(&run.study, Some(&run.parameter)),
-        run.table.exponent_periods
+        base_in_title(&found.study, Some(&found.parameter)),
+        found.table.exponent_periods
     );
-    let passes = run.sweep.passes.iter().enumerate().take(PANELS);
+    let passes = found.sweep.passes.iter().enumerate().take(PANELS);
     let panels = passes.map(|(index, pass)| {
-        let rows: Vec<&Row> = report.rows.iter().filter(|row| row.pass == index).collect();
-        Panel::from(spectrum(run, &label(run, pass), &rows))
+        let rows: Vec<&Row> = found.rows_of(index).collect();
+        Panel::from(spectrum(found, &label(found, pass), &rows))
     });
     Figure::grid(1, panels).title(title)
 }
 
-fn spectrum(run: &Run, title: &str, rows: &[&Row]) -> Curves {
-    let values: Vec<f64> = rows.iter().map(|row| row.value).collect();
+fn spectrum(found: &Found, title: &str, rows: &[&Row]) -> Curves {
+    let values: Vec<f64> = rows.iter().map(|row| row.run.value).collect();
     let plot = Curves::new(
         title,
-        Axis::new(capitalized(&run.parameter.label())),
+        Axis::new(capitalized(&found.parameter.label())),
         Axis::new("Mean growth per forcing period (-)"),
     );
-    let count = (run.table.exponents as usize).min(CURVES);
+    let count = (found.table.exponents as usize).min(CURVES);
     let plot = (0..count).fold(plot, |plot, k| {
-        let of = |value: fn(&Rate) -> f64| -> Vec<f64> {
+        let of = |value: fn(&Exponent) -> f64| -> Vec<f64> {
             let rates = rows.iter().map(|row| row.exponents.get(k));
             rates.map(|rate| rate.map_or(f64::NAN, value)).collect()
         };
-        plot.line(
-            format!("λ_{}", k + 1),
-            &values[..],
-            of(|rate| rate.per_period),
-        )
-        .band(
-            "± one standard error",
-            of(|rate| rate.per_period - rate.standard_error),
-            of(|rate| rate.per_period + rate.standard_error),
-        )
+        plot.line(format!("λ_{}", k + 1), &values[..], of(|e| e.per_iterate))
+            .band(
+                "± one standard error",
+                of(|e| e.per_iterate - e.standard_error),
+                of(|e| e.per_iterate + e.standard_error),
+            )
     });
     // all of them, so that a colour means the same in every figure
-    LABELS.iter().fold(plot.level("Zero", 0.0), |plot, name| {
+    labels().iter().fold(plot.level("Zero", 0.0), |plot, name| {
         let its = rows.iter().enumerate();
-        let its = its.filter(|(_, row)| row.label == Some(name));
+        let its = its.filter(|(_, row)| row.label() == *name);
         let intervals: Vec<_> = its.map(|(i, _)| around(&values, i)).collect();
         plot.shade(capitalized(name), &intervals)
     })
@@ -112,11 +108,11 @@ fn around(values: &[f64], i: usize) -> (f64, f64) {
 }
 
 /// Entry of the legend.
-fn label(run: &Run, pass: &Pass) -> String {
-    let symbol = run.parameter.symbol();
+fn label(found: &Found, pass: &Pass) -> String {
+    let symbol = found.parameter.symbol();
     match *pass {
         Pass::Up | Pass::Down => {
-            let values = &run.sweep.values;
+            let values = &found.sweep.values;
             let rising = values.first() < values.last();
             let onwards = matches!(pass, Pass::Up);
             let way = if rising == onwards {

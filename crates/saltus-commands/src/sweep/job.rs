@@ -1,11 +1,10 @@
 //! A sweep that takes each value anew, as work that can be cut.
 
-use super::{Measured, PERIODS, measure, periods};
+use super::{PERIODS, Row, measure, periods};
 use crate::failure::Failure;
 use crate::models::Models;
 use crate::pieces::{Job, Reader, Sink, Writer};
 use saltus::hybrid::Status;
-use saltus::orbits::Exponent;
 use saltus::study::{Control, Label, Sweep, SweepRow};
 use saltus_config::{Study, SweepTable};
 
@@ -51,7 +50,7 @@ impl<'a> Restarts<'a> {
 }
 
 impl Job for Restarts<'_> {
-    type Item = (SweepRow, Option<Label>, Vec<Exponent>);
+    type Item = Row;
     const LEAST: usize = 8;
     const ITEMS: &'static str = "values";
 
@@ -77,45 +76,44 @@ impl Job for Restarts<'_> {
         control: &Control,
         sink: Sink<Self::Item>,
     ) -> Result<(), Failure> {
-        let (rows, labels, exponents): Measured =
-            measure(&self.part(items), self.table, &self.models, control)?;
-        let found = rows.into_iter().zip(labels).zip(exponents);
-        for (&item, ((mut row, mut label), exponents)) in items.iter().zip(found) {
-            row.pass = self.place(item).0;
+        let rows = measure(&self.part(items), self.table, &self.models, control)?;
+        for (&item, mut row) in items.iter().zip(rows) {
+            row.run.pass = self.place(item).0;
             // nobody goes on from here, and pieces do not keep it
-            row.end = None;
-            if let Some(label) = &mut label {
+            row.run.end = None;
+            if let Some(label) = &mut row.label {
                 label.end = None;
             }
-            sink(item, (row, label, exponents))?;
+            sink(item, row)?;
         }
         Ok(())
     }
 
-    fn write(&self, (row, label, exponents): &Self::Item, out: &mut Writer) {
-        write_status(row.status.as_ref().ok(), out);
-        out.whole(row.z.len() as u64);
-        out.whole(row.z.first().map_or(0, Vec::len) as u64);
-        row.z
+    fn write(&self, row: &Row, out: &mut Writer) {
+        let run = &row.run;
+        write_status(run.status.as_ref().ok(), out);
+        out.whole(run.z.len() as u64);
+        out.whole(run.z.first().map_or(0, Vec::len) as u64);
+        run.z
             .iter()
-            .chain(&row.v)
+            .chain(&run.v)
             .for_each(|samples| out.numbers(samples));
-        out.whole(row.contact_ratio.len() as u64);
-        out.numbers(&row.contact_ratio);
-        out.whole(label.is_some().into());
-        if let Some(label) = label {
+        out.whole(run.contact_ratio.len() as u64);
+        out.numbers(&run.contact_ratio);
+        out.whole(row.label.is_some().into());
+        if let Some(label) = &row.label {
             out.kind(label.kind);
             out.exponent(label.exponent);
             out.whole(label.confidence.is_some().into());
             out.numbers(&[label.confidence.unwrap_or_default()]);
         }
-        out.whole(exponents.len() as u64);
-        exponents
+        out.whole(row.exponents.len() as u64);
+        row.exponents
             .iter()
             .for_each(|&exponent| out.exponent(Some(exponent)));
     }
 
-    fn read(&self, number: usize, from: &mut Reader) -> Option<Self::Item> {
+    fn read(&self, number: usize, from: &mut Reader) -> Option<Row> {
         let (pass, value) = self.place(number);
         let status = match status(from)? {
             Some(status) => Ok(status),
@@ -123,7 +121,7 @@ impl Job for Restarts<'_> {
             None => Err(self.models.at(&[value]).err()?),
         };
         let (bodies, samples) = (size(from)?, size(from)?);
-        let row = SweepRow {
+        let run = SweepRow {
             pass,
             value,
             z: from.lists(bodies, samples)?,
@@ -138,7 +136,11 @@ impl Job for Restarts<'_> {
         };
         let count = size(from)?;
         let exponents: Option<_> = (0..count).map(|_| from.exponent()?).collect();
-        Some((row, label, exponents?))
+        Some(Row {
+            run,
+            label,
+            exponents: exponents?,
+        })
     }
 }
 

@@ -1,28 +1,23 @@
 //! `saltus sweep`: long-term motion while one parameter changes.
 
-mod dataset;
+mod data;
 mod figures;
 mod job;
-mod report;
 mod summary;
-mod tables;
 
-use crate::answer::{Answer, Take, stream_json};
-use crate::context::{Context, Found};
+use crate::answer::{Answer, Take};
+use crate::context::{Context, Found as Existing};
 use crate::failure::Failure;
 use crate::models::Models;
 use crate::pieces::{self, Divided, Kept};
 use crate::status;
-use crate::store::Store;
 use job::Restarts;
-use report::Report;
 use saltus::hybrid::Status;
 use saltus::model::ModelError;
 use saltus::orbits::Exponent;
 use saltus::study::{Control, Label, Pass, StudyError, Sweep, SweepRow};
 use saltus_config::{Direction, Parameter, Study, SweepTable};
 use saltus_results::Dataset;
-use std::io::{self, Write};
 use std::path::Path;
 
 /// Shown to those whose study has none.
@@ -37,18 +32,24 @@ add a table that says what changes, such as
   direction = \"both\"";
 
 /// A sweep with its question.
-struct Run {
+struct Found {
     study: Study,
     table: SweepTable,
     parameter: Parameter,
     sweep: Sweep,
-    rows: Vec<SweepRow>,
-    /// What each row is; none if it was not run to its end.
-    labels: Vec<Option<Label>>,
-    /// Of each row as many as were asked for, or that one which its label took.
-    exponents: Vec<Vec<Exponent>>,
+    /// One for each value, pass by pass, in the order of the values.
+    rows: Vec<Row>,
     /// The pieces of restarts.
     kept: Option<Kept>,
+}
+
+/// One value of one pass.
+struct Row {
+    run: SweepRow,
+    /// The kind of its motion; none if it was not run to its end.
+    label: Option<Label>,
+    /// As many as were asked for, or the one that the label took.
+    exponents: Vec<Exponent>,
 }
 
 /// Forcing periods that a label takes, roughly: most motions are on a cycle when their row ends.
@@ -59,7 +60,7 @@ pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, F
     let models = Models::new(study, &[&parameter], study.options());
     refuse_if_too_many_exponents(table, &models)?;
     let sweep = plan(study, table);
-    let ((rows, labels, exponents), mut kept) = match table.direction {
+    let (rows, mut kept) = match table.direction {
         Direction::Restarts => restarts(&Restarts::new(study, table, &sweep, models), context)?,
         _ => {
             refuse_pieces_of_carried_states(table, context)?;
@@ -69,14 +70,12 @@ pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, F
     if let Err(failure) = refuse_if_all_failed(&rows) {
         return kept.as_mut().map_or(Ok(()), Kept::remove).and(Err(failure));
     }
-    Ok(Box::new(Run {
+    Ok(Box::new(Found {
         study: study.clone(),
         table: table.clone(),
         parameter,
         sweep,
         rows,
-        labels,
-        exponents,
         kept,
     }))
 }
@@ -94,14 +93,10 @@ pub(crate) fn divided(study: &Study) -> Result<Box<dyn Divided + '_>, Failure> {
 }
 
 /// Each value anew, in pieces.
-fn restarts(job: &Restarts, context: &Context) -> Result<(Measured, Option<Kept>), Failure> {
-    let mut all = Measured::default();
-    let kept = pieces::run(job, context, &mut |_, (row, label, exponents)| {
-        all.0.push(row);
-        all.1.push(label);
-        all.2.push(exponents);
-    })?;
-    Ok((all, Some(kept)))
+fn restarts(job: &Restarts, context: &Context) -> Result<(Vec<Row>, Option<Kept>), Failure> {
+    let mut rows = Vec::new();
+    let kept = pieces::run(job, context, &mut |_, row| rows.push(row))?;
+    Ok((rows, Some(kept)))
 }
 
 /// Each value from the last state of the one before.
@@ -110,19 +105,19 @@ fn carried(
     table: &SweepTable,
     models: &Models,
     context: &Context,
-) -> Result<Measured, Failure> {
+) -> Result<Vec<Row>, Failure> {
     let control = context.control(models.study());
     let total = (sweep.values.len() * sweep.passes.len()) as u64 * periods(table);
     let work = || measure(std::slice::from_ref(sweep), table, models, &control);
-    let measured = context.follow(total, PERIODS, &control.done, work)?;
+    let rows = context.follow(total, PERIODS, &control.done, work)?;
     context.check()?;
-    Ok(measured)
+    Ok(rows)
 }
 
 /// Only restarts leave pieces, so there are none to go on with.
 fn refuse_pieces_of_carried_states(table: &SweepTable, context: &Context) -> Result<(), Failure> {
     match &context.keep {
-        Some(keep) if keep.found != Found::InTheWay => Err(indivisible(table)),
+        Some(keep) if keep.found != Existing::InTheWay => Err(indivisible(table)),
         _ => Ok(()),
     }
 }
@@ -219,15 +214,13 @@ fn periods(table: &SweepTable) -> u64 {
     u64::from(table.transient) + u64::from(table.record) + LABELLING + followed
 }
 
-type Measured = (Vec<SweepRow>, Vec<Option<Label>>, Vec<Vec<Exponent>>);
-
-/// The rows, what each is, and its exponents.
+/// The rows, each with the kind of its motion and its exponents.
 fn measure(
     sweeps: &[Sweep],
     table: &SweepTable,
     models: &Models,
     control: &Control,
-) -> Result<Measured, StudyError> {
+) -> Result<Vec<Row>, StudyError> {
     let model_at = |value| models.at(&[value]);
     let sweeps: Vec<_> = sweeps
         .iter()
@@ -248,15 +241,21 @@ fn measure(
             saltus::study::exponents(&rows, &labels, model_at, count, periods, control)?
         }
     };
-    Ok((rows, labels, exponents))
+    let rows = rows.into_iter().zip(labels).zip(exponents);
+    let row = |((run, label), exponents)| Row {
+        run,
+        label,
+        exponents,
+    };
+    Ok(rows.map(row).collect())
 }
 
 /// Nothing is worth keeping if no value was run to its end.
-fn refuse_if_all_failed(rows: &[SweepRow]) -> Result<(), Failure> {
-    if rows.iter().any(completed) {
+fn refuse_if_all_failed(rows: &[Row]) -> Result<(), Failure> {
+    if rows.iter().any(Row::is_completed) {
         return Ok(());
     }
-    match rows.first().map(|row| &row.status) {
+    match rows.first().map(|row| &row.run.status) {
         Some(Err(error)) => Err(error.clone().into()),
         Some(Ok(end)) => Err(Failure::computation(format!(
             "no value of the sweep was run to its end; the first: {}",
@@ -266,40 +265,31 @@ fn refuse_if_all_failed(rows: &[SweepRow]) -> Result<(), Failure> {
     }
 }
 
-fn completed(row: &SweepRow) -> bool {
-    row.status == Ok(Status::Completed)
+impl Row {
+    fn is_completed(&self) -> bool {
+        self.run.status == Ok(Status::Completed)
+    }
 }
 
-impl Answer for Run {
+impl Answer for Found {
     fn study(&self) -> &Study {
         &self.study
     }
 
     fn data(&self) -> Dataset {
-        dataset::dataset(self, &Report::new(self))
-    }
-
-    fn draw(&self, _: Take) -> Result<(), Failure> {
-        Ok(())
+        data::data(self)
     }
 
     fn summary(&self) -> String {
-        summary::text(self, &Report::new(self))
+        summary::text(self)
     }
 
-    fn document(&self, _: &Dataset, to: &mut dyn Write) -> io::Result<()> {
-        stream_json(to, &Report::new(self))
-    }
-
-    fn fill(&self, store: &mut dyn Store, name: &str, data: Dataset) -> Result<(), Failure> {
-        let report = Report::new(self);
-        tables::write(store, self, &report)?;
-        store.put_dataset(name, data)?;
-        store.figure("bifurcation", &figures::bifurcation(self))?;
-        if self.table.exponents > 0 {
-            store.figure("exponents", &figures::exponents(self, &report))?;
+    fn draw(&self, take: Take) -> Result<(), Failure> {
+        take("bifurcation", &figures::bifurcation(self))?;
+        match self.table.exponents {
+            0 => Ok(()),
+            _ => take("exponents", &figures::exponents(self)),
         }
-        Ok(())
     }
 
     fn pieces(&self) -> Option<&Path> {
@@ -311,8 +301,21 @@ impl Answer for Run {
     }
 }
 
-impl Run {
+impl Found {
     fn jumpers(&self) -> usize {
         self.study.jumper.len()
+    }
+
+    /// The rows of a pass.
+    fn rows_of(&self, pass: usize) -> impl Iterator<Item = &Row> + Clone {
+        self.rows.iter().filter(move |row| row.run.pass == pass)
+    }
+
+    /// Height and velocity with which a pass begins, over eta and eta omega_h.
+    fn start(&self, pass: &Pass) -> [f64; 2] {
+        match *pass {
+            Pass::Start { z, v } => [z, v],
+            Pass::Up | Pass::Down => self.sweep.start.into(),
+        }
     }
 }

@@ -1,32 +1,28 @@
 //! What `saltus sweep` says to people.
 
-use super::Run;
-use super::report::{LABELS, Report, Row};
+use super::data::{direction, labels};
+use super::{Found, Row};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-pub(super) fn text(run: &Run, report: &Report) -> String {
-    let (sweep, values) = (&run.sweep, &run.sweep.values);
+pub(super) fn text(found: &Found) -> String {
+    let (sweep, values) = (&found.sweep, &found.sweep.values);
     let ends = (values.first(), values.last());
     let (from, to) = (ends.0.unwrap_or(&f64::NAN), ends.1.unwrap_or(&f64::NAN));
     let mut text = format!(
         "{} from {from} to {to}: {} values, at each {} forcing periods recorded after {}\n",
-        run.parameter.label(),
+        found.parameter.label(),
         values.len(),
         sweep.record,
         sweep.transient
     );
-    for pass in 0..sweep.passes.len() {
-        let rows: Vec<&Row> = report.rows.iter().filter(|row| row.pass == pass).collect();
-        let name = rows.first().map_or(String::new(), |row| {
-            format!(
-                "{} from [{}, {}]",
-                row.direction, row.start[0], row.start[1]
-            )
-        });
+    for (index, pass) in sweep.passes.iter().enumerate() {
+        let [z, v] = found.start(pass);
+        let name = format!("{} from [{z}, {v}]", direction(pass));
+        let rows = || found.rows_of(index);
         // writing to a string cannot fail
-        let _ = writeln!(text, "  {name:<18} {}", tally(&rows));
-        if let Some([low, high]) = largest(&rows).filter(|_| run.table.exponents > 0) {
+        let _ = writeln!(text, "  {name:<18} {}", tally(rows()));
+        if let Some([low, high]) = largest(rows()).filter(|_| found.table.exponents > 0) {
             let _ = writeln!(
                 text,
                 "  {:<18} largest exponent from {low:.4} to {high:.4} per forcing period",
@@ -34,12 +30,9 @@ pub(super) fn text(run: &Run, report: &Report) -> String {
             );
         }
     }
-    if let Some(row) = report.rows.iter().find(|row| row.status != "completed") {
-        let _ = writeln!(
-            text,
-            "  first that ended early, at {}: {}",
-            row.value, row.status_text
-        );
+    if let Some(row) = found.rows.iter().find(|row| !row.is_completed()) {
+        let (value, why) = (row.run.value, row.status_text());
+        let _ = writeln!(text, "  first that ended early, at {value}: {why}");
     }
     text + NOTE
 }
@@ -50,14 +43,14 @@ exponent, each name at a confidence of 0.999.
 ";
 
 /// How many values have which motion: the periods first, the shortest before the others.
-fn tally(rows: &[&Row]) -> String {
+fn tally<'a>(rows: impl Iterator<Item = &'a Row>) -> String {
     let mut counts: BTreeMap<(usize, u32), usize> = BTreeMap::new();
     for row in rows {
-        let label = LABELS.iter().position(|name| row.label == Some(name));
-        let place = label.unwrap_or(LABELS.len());
-        *counts.entry((place, row.period.unwrap_or(0))).or_default() += 1;
+        let label = labels().iter().position(|name| *name == row.label());
+        let place = label.unwrap_or(labels().len());
+        *counts.entry((place, row.period())).or_default() += 1;
     }
-    let part = |(&(place, period), count): (&(usize, u32), &usize)| match LABELS.get(place) {
+    let part = |(&(place, period), count): (&(usize, u32), &usize)| match labels().get(place) {
         Some(_) if period > 0 => format!("{count} x {period}T"),
         name => format!("{count} {}", name.unwrap_or(&"ended early")),
     };
@@ -66,8 +59,8 @@ fn tally(rows: &[&Row]) -> String {
 }
 
 /// Smallest and largest of the largest exponents.
-fn largest(rows: &[&Row]) -> Option<[f64; 2]> {
-    let all = rows.iter().filter_map(|row| row.exponents.first());
-    all.map(|rate| [rate.per_period; 2])
+fn largest<'a>(rows: impl Iterator<Item = &'a Row>) -> Option<[f64; 2]> {
+    rows.filter_map(|row| row.exponents.first())
+        .map(|exponent| [exponent.per_iterate; 2])
         .reduce(|[low, high], [value, _]| [low.min(value), high.max(value)])
 }

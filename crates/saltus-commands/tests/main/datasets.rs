@@ -3,7 +3,7 @@
 
 use saltus_commands::{Context, Failure, Fill, Request, Rows, Store};
 use saltus_config::{Direction, Inertia, Law, Study};
-use saltus_results::{Column, Columns, Dataset, Figure, Values};
+use saltus_results::{Cells, Column, Columns, Dataset, Figure, Values};
 use std::collections::BTreeMap;
 
 /// Keeps what an answer hands over.
@@ -73,6 +73,25 @@ fn answer(request: &Request, study: &Study) -> (Dataset, BTreeMap<String, Column
     (dataset.clone(), memory.tables)
 }
 
+/// The arrays of an answer.
+fn data(request: &Request, study: &Study) -> Dataset {
+    let set = request.ask(study, &Context::default()).unwrap().data();
+    set.check().unwrap();
+    set
+}
+
+/// Rows in the file of a table.
+fn rows(set: &Dataset, name: &str) -> usize {
+    let mut tables = set.tables().iter();
+    let table = tables.find(|table| table.is_file() && table.name() == name);
+    let columns = table.expect(name).to_columns(set).unwrap();
+    match &columns[0].cells {
+        Cells::F64(cells) => cells.len(),
+        Cells::I64(cells) => cells.len(),
+        other => panic!("{other:?}"),
+    }
+}
+
 /// An array with its lengths.
 struct Array<'a> {
     lengths: Vec<usize>,
@@ -120,15 +139,6 @@ fn places(table: &Columns, name: &str) -> Vec<usize> {
     values.map(|value| value as usize).collect()
 }
 
-/// Where each value of a table is along a coordinate.
-fn along(dataset: &Dataset, name: &str, values: &[f64]) -> Vec<usize> {
-    let Values::F64(known) = array(dataset, name).values else {
-        panic!("{name} has no numbers");
-    };
-    let place = |value| known.iter().position(|known| known == value).unwrap();
-    values.iter().map(place).collect()
-}
-
 fn assert_same(found: f64, expected: f64) {
     let same = found.to_bits() == expected.to_bits() || found.is_nan() && expected.is_nan();
     assert!(same, "{found:?} and not {expected:?}");
@@ -145,33 +155,28 @@ fn a_sweep_is_a_block_with_every_row_at_its_value() {
         (sweep.transient, sweep.record) = (6, 4);
         sweep.direction = Direction::Both;
     });
-    let (set, tables) = answer(&Request::Sweep, &study);
-    let (z, v) = (array(&set, "z"), array(&set, "v"));
+    let set = data(&Request::Sweep, &study);
+    let z = array(&set, "z");
     assert_eq!(z.lengths, [2, 3, 2, 4]);
-    let table = &tables["sweep.csv"];
-    let value = along(&set, "jumper_damping_ratio", &column(table, "value"));
-    let [pass, jumper, sample] = ["pass", "jumper", "sample"].map(|name| places(table, name));
-    assert_eq!(table.rows(), 2 * 2 * 2 * 4);
-    for row in 0..table.rows() {
-        let place = [pass[row], value[row], jumper[row], sample[row] - 1];
-        assert_same(z.at(&place), column(table, "z")[row]);
-        assert_same(v.at(&place), column(table, "v")[row]);
-    }
+    assert_eq!(rows(&set, "sweep"), 2 * 2 * 2 * 4);
+    assert_eq!(rows(&set, "rows"), 2 * 3 * 2);
     let (status, label) = (array(&set, "status"), array(&set, "label"));
+    let ratio = array(&set, "contact_ratio");
     for pass in 0..2 {
-        assert!(z.at(&[pass, 0, 1, 3]).is_nan());
+        assert!(z.at(&[pass, 0, 1, 3]).is_nan() && ratio.at(&[pass, 0, 1]).is_nan());
         assert_eq!((status.at(&[pass, 0]), label.at(&[pass, 0])), (4.0, 0.0));
+        assert!(z.at(&[pass, 1, 1, 3]).is_finite() && ratio.at(&[pass, 1, 1]).is_finite());
         assert_eq!(status.at(&[pass, 1]), 0.0);
         assert!(label.at(&[pass, 1]) > 0.0);
     }
+    let Values::Text(texts) = array(&set, "status_text").values else {
+        panic!("sentences are texts");
+    };
+    assert!(
+        texts[0].contains("damp") && texts[1] == "completed",
+        "{texts:?}"
+    );
     assert_eq!(set.get("status").unwrap().flag_meanings()[4].1, "no_model");
-    let table = &tables["rows.csv"];
-    let ratio = array(&set, "contact_ratio");
-    let value = along(&set, "jumper_damping_ratio", &column(table, "value"));
-    for (row, &expected) in column(table, "contact_ratio").iter().enumerate() {
-        let place = [row / 6, value[row], row % 2];
-        assert_same(ratio.at(&place), expected);
-    }
 }
 
 #[test]
@@ -261,20 +266,39 @@ fn attractors_are_numbers_over_value_and_attractor() {
         study.attractors.count = Some(2);
         study.attractors.starts = 4;
     });
-    let (set, tables) = answer(&Request::Attractors, &study);
-    let (table, share) = (&tables["attractors.csv"], array(&set, "share"));
-    let value = along(&set, "jumper_damping_ratio", &column(table, "value"));
-    let number = places(table, "attractor");
-    for row in 0..table.rows() {
-        let place = [value[row], number[row] - 1];
-        assert_same(share.at(&place), column(table, "share")[row]);
+    let set = data(&Request::Attractors, &study);
+    let (share, kind) = (array(&set, "share"), array(&set, "kind"));
+    let [values, attractors] = share.lengths[..] else {
+        panic!("{:?}", share.lengths);
+    };
+    let mut met = 0;
+    for value in 0..values {
+        let all = ["undecided", "lost"].map(|name| array(&set, name).at(&[value]));
+        let mut all = all[0] + all[1];
+        for place in (0..attractors).map(|attractor| [value, attractor]) {
+            assert_eq!(share.at(&place).is_nan(), kind.at(&place) == 0.0);
+            if kind.at(&place) > 0.0 {
+                all += share.at(&place);
+                met += 1;
+            }
+        }
+        assert!((all - 1.0).abs() < 1e-12, "{all}");
     }
-    let (z, expected) = (array(&set, "z"), column(&tables["sections.csv"], "z"));
-    assert_same(z.at(&[0, 0, 0]), expected[0]);
+    assert_eq!(set.get("kind").unwrap().flag_meanings()[1].1, "periodic");
+    let z = array(&set, "z");
+    assert_eq!(z.lengths[..2], [met, 1]);
+    assert_eq!(array(&set, "motion_attractor").lengths, [met]);
     let Values::F64(all) = z.values else {
         panic!("heights are numbers");
     };
-    assert_eq!(all.iter().filter(|z| !z.is_nan()).count(), expected.len());
+    let samples = all.iter().filter(|z| !z.is_nan()).count();
+    assert_eq!(
+        ["attractors", "sections", "ranges", "rows"].map(|name| rows(&set, name)),
+        [met, samples, attractors, values]
+    );
+    for name in ["first", "birth_high", "death_to"] {
+        assert_eq!(array(&set, name).lengths, [attractors], "{name}");
+    }
 }
 
 #[test]
