@@ -18,10 +18,7 @@ pub(super) fn periods(plane: &Plane, layers: &Layers) -> Figure {
         };
         Class::new(label, Colour::SERIES[i])
     });
-    let chaotic = match layers.tally().chaotic_over {
-        Some(span) => format!("Chaotic for {} periods and more", span.min),
-        None => "Chaotic".to_owned(),
-    };
+    let chaotic = format!("Chaotic{}", layers.tally().chaotic_for());
     let others = [
         Class::new("Another period up to 32", Colour::OTHER),
         // the colour that the periods leave

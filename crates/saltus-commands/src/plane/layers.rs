@@ -1,9 +1,9 @@
 //! The layers of a plane: one number per pixel and quantity.
 
-use super::{Cell, Loss, Plane};
+use super::{Cell, Loss};
 use crate::failure::Failure;
+use crate::quantities as q;
 use saltus::study::Kind;
-use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// What became of a pixel, by the code it has in the layer `status`.
@@ -37,34 +37,16 @@ impl Status {
     ];
 
     pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Periodic => "periodic",
-            Self::QuasiPeriodic => "quasi-periodic",
-            Self::Chaotic => "chaotic",
-            Self::NotPeriodic => "not-periodic",
-            Self::Undecided => "undecided",
-            Self::NoModel => "no-model",
-            Self::Chattering => "chattering",
-            Self::NotFinite => "not-finite",
-            Self::TooManySteps => "too-many-steps",
-            Self::Ended => "ended",
-        }
+        q::PIXEL_STATUS.words[self as usize]
     }
 
     fn of(cell: &Cell) -> Self {
-        match &cell.attractor {
-            Ok(motion) => match motion.kind {
-                Kind::Periodic(_) => Self::Periodic,
-                Kind::QuasiPeriodic => Self::QuasiPeriodic,
-                Kind::Chaotic => Self::Chaotic,
-                Kind::NotPeriodic => Self::NotPeriodic,
-                Kind::Undecided => Self::Undecided,
-            },
-            Err(loss) => {
-                let named = |status: &&Self| status.name() == loss.status;
-                Self::ALL.iter().find(named).copied().unwrap_or(Self::Ended)
-            }
-        }
+        let name = match &cell.attractor {
+            Ok(motion) => motion.kind.name(),
+            Err(loss) => &loss.status,
+        };
+        let named = |status: &&Self| status.name() == name;
+        Self::ALL.iter().find(named).copied().unwrap_or(Self::Ended)
     }
 
     /// Whether there is a motion, periodic or not.
@@ -92,38 +74,17 @@ pub(crate) struct Layers {
     pub(crate) first_loss: Option<(usize, Loss)>,
 }
 
-/// The first pixel without a motion.
-#[derive(Serialize)]
-pub(crate) struct FirstFailure {
-    x: f64,
-    y: f64,
-    status: String,
-    pub(crate) status_text: String,
-}
-
-impl FirstFailure {
-    pub(crate) fn of(plane: &Plane, layers: &Layers) -> Option<Self> {
-        let (pixel, loss) = layers.first_loss.as_ref()?;
-        let (x, y) = plane.grid.at(*pixel);
-        Some(Self {
-            x,
-            y,
-            status: loss.status.clone(),
-            status_text: loss.reason.clone(),
-        })
-    }
-}
-
 /// How often each status and each period occurs.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug)]
 pub(crate) struct Tally {
-    status: BTreeMap<&'static str, usize>,
+    /// By the code of the status.
+    pub(crate) status: [usize; Status::ALL.len()],
     /// Fewest and most forcing periods over which a chaotic motion was seen not to settle.
-    pub(crate) chaotic_over: Option<Span>,
+    pub(crate) chaotic_over: Option<[u32; 2]>,
     pub(crate) periods: Vec<PeriodShare>,
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug)]
 pub(crate) struct PeriodShare {
     pub(crate) period: u16,
     pub(crate) pixels: usize,
@@ -131,7 +92,7 @@ pub(crate) struct PeriodShare {
 }
 
 /// The range of a layer, where there is a motion.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Span {
     pub(crate) min: f64,
     pub(crate) max: f64,
@@ -153,10 +114,8 @@ impl Layers {
         if let (None, Err(loss)) = (&self.first_loss, &cell.attractor) {
             self.first_loss = Some((self.status.len(), loss.clone()));
         }
-        self.period.push(match motion.map(|m| m.kind) {
-            Some(Kind::Periodic(n)) => n as u16,
-            _ => 0,
-        });
+        let period = motion.and_then(|m| period(m.kind));
+        self.period.push(period.unwrap_or(0) as u16);
         self.status.push(Status::of(cell));
         self.peak_acceleration
             .push(motion.map_or(f64::NAN, |m| m.peak_acceleration));
@@ -175,9 +134,9 @@ impl Layers {
     }
 
     pub(crate) fn tally(&self) -> Tally {
-        let mut status = BTreeMap::new();
-        for one in &self.status {
-            *status.entry(one.name()).or_default() += 1;
+        let mut status = [0; Status::ALL.len()];
+        for &one in &self.status {
+            status[one as usize] += 1;
         }
         let mut periods: BTreeMap<u16, usize> = BTreeMap::new();
         for &period in self.period.iter().filter(|&&period| period > 0) {
@@ -188,23 +147,35 @@ impl Layers {
             pixels,
             share: pixels as f64 / self.status.len() as f64,
         };
-        let chaotic = self.chaotic_periods();
-        let chaotic = chaotic.into_iter().filter(|&periods| periods > 0);
+        let chaotic = || self.chaotic_periods().filter(|&periods| periods > 0);
+        let least = chaotic().min();
         Tally {
             status,
-            chaotic_over: span(&chaotic.map(f64::from).collect::<Vec<_>>()),
+            chaotic_over: least.zip(chaotic().max()).map(<[u32; 2]>::from),
             periods: periods.into_iter().map(share).collect(),
         }
     }
 
     /// Forcing periods over which each chaotic motion was seen not to settle; 0 where the motion is not chaotic.
-    pub(crate) fn chaotic_periods(&self) -> Vec<u32> {
+    pub(crate) fn chaotic_periods(&self) -> impl Iterator<Item = u32> {
         let pixels = self.status.iter().zip(&self.periods_run);
-        let chaotic = |(&status, &run): (&Status, &u32)| match status {
+        pixels.map(|(&status, &run)| match status {
             Status::Chaotic => run,
             _ => 0,
-        };
-        pixels.map(chaotic).collect()
+        })
+    }
+
+    /// Range of the largest acceleration of the floor.
+    pub(crate) fn acceleration(&self) -> Option<Span> {
+        span(&self.peak_acceleration)
+    }
+
+    /// Why the first pixel without a motion has none, for people; empty if all have one.
+    pub(crate) fn first_failure(&self) -> String {
+        let first = self.first_loss.as_ref();
+        first.map_or(String::new(), |(_, loss)| {
+            format!("  first failure: {}\n", loss.reason)
+        })
     }
 
     /// Nothing is worth keeping if there is no motion anywhere.
@@ -231,35 +202,47 @@ impl Layers {
 impl Tally {
     /// Pixels that are undecided or failed.
     pub(crate) fn without_attractor(&self) -> usize {
-        let known = Status::ALL
-            .iter()
-            .filter(|status| **status < Status::Undecided);
-        let known: Vec<&str> = known.map(|status| status.name()).collect();
-        let rest = self.status.iter().filter(|(name, _)| !known.contains(name));
+        let rest = Status::ALL.iter().zip(self.status);
+        let rest = rest.filter(|(status, _)| **status >= Status::Undecided);
         rest.map(|(_, pixels)| pixels).sum()
+    }
+
+    /// How long the chaotic motions were watched, in words; empty if there are none.
+    pub(crate) fn chaotic_for(&self) -> String {
+        let over = self.chaotic_over;
+        over.map_or(String::new(), |[least, _]| {
+            format!(" for {least} periods and more")
+        })
     }
 
     /// For people: one line per kind of motion.
     pub(crate) fn text(&self) -> String {
-        let all: usize = self.status.values().sum();
+        let all: usize = self.status.iter().sum();
         let percent = |pixels: usize| 100.0 * pixels as f64 / all as f64;
         let mut lines: Vec<String> = self
             .periods
             .iter()
             .map(|p| format!("  {:>5.1} %  {}T", percent(p.pixels), p.period))
             .collect();
-        let periodic = Status::Periodic.name();
-        let others = Status::ALL.iter().filter_map(|status| {
-            let pixels = self.status.get(status.name())?;
-            let shown = status.name() != periodic;
-            let over = self.chaotic_over.filter(|_| *status == Status::Chaotic);
-            let over = over.map_or(String::new(), |span| {
-                format!(" for {} periods and more", span.min)
-            });
-            shown.then(|| format!("  {:>5.1} %  {}{over}", percent(*pixels), status.name()))
+        let others = Status::ALL.iter().zip(self.status);
+        let others = others.filter(|&(&status, pixels)| status != Status::Periodic && pixels > 0);
+        let others = others.map(|(&status, pixels)| {
+            let over = match status {
+                Status::Chaotic => self.chaotic_for(),
+                _ => String::new(),
+            };
+            format!("  {:>5.1} %  {}{over}", percent(pixels), status.name())
         });
         lines.extend(others);
         lines.join("\n") + "\n"
+    }
+}
+
+/// Forcing periods of a cycle.
+pub(crate) fn period(kind: Kind) -> Option<u32> {
+    match kind {
+        Kind::Periodic(n) => Some(n),
+        _ => None,
     }
 }
 
