@@ -149,17 +149,22 @@ Layers (map.nc, over y and x, with units; NaN where there is no motion):
   Several jumpers have contact_ratio_0, contact_ratio_1, ... of their own.
 
 JSON (--json, and map.json in --out):
-  x, y               parameter, unit, label, from, to, count
-  pixels, status     how many pixels of each status
+  x_parameter, x_unit, x_label, x_from, x_to, x_count
+                     the axes, y likewise
+  pixels, outcomes   how many there are, and how many of each status
   periods            period, pixels and share of each period that occurs
-  chaotic_over       min and max of chaotic_periods over the chaotic pixels;
-                     null if there are none
-  contact_ratio, peak_reaction, peak_acceleration
-                     min and max over the map; a list for several jumpers
-  periods_run        forcing periods computed in all
-  first_failure      x, y, status and status_text of the first pixel without a
-                     motion; null if there is none
+  chaotic_over_min, chaotic_over_max
+                     of chaotic_periods over the chaotic pixels; null if there
+                     are none
+  contact_ratio_min, contact_ratio_max
+                     over the map, a list of one for each jumper; likewise
+                     peak_reaction and, not of a jumper, peak_acceleration
+  periods_run_total  forcing periods computed in all
+  first_failure_x, first_failure_y, first_failure_status,
+  first_failure_status_text
+                     of the first pixel without a motion; null if there is none
   transient, record, version, study (as resolved)
+  map.nc has all of these too.
 
 Folder (--out):
   study.toml, map.json, map.nc (NetCDF: xarray.open_dataset), and the figures
@@ -199,21 +204,21 @@ Layers (basins.nc): attractor (its number, 0 for none) and those of
 
 JSON (--json, and basins.json in --out):
   attractors         the most frequent first:
-    number, period   forcing periods; null if not periodic
+    attractor, period  its number; forcing periods, null if not periodic
     kind             \"periodic\", \"quasi-periodic\", \"chaotic\", \"undecided\", or
                      \"not-periodic\", no cycle with basins.exponent = 0
     matched          number in `saltus attractors` (--match); null if not met
     pixels, share    how many pixels lead to it, and of all
-    start            x and y of the first of them
+    start_z, start_v the first of them
     contact_ratio, peak_reaction, peak_acceleration
                      as in `saltus map`
     z, v             its samples at cos(Omega t) = 1: height z/eta and velocity
-                     z'/(eta omega_h) (-), the lowest first; a list for one
-                     jumper, a list of lists for several; empty if not periodic
-    z_range, v_range their ranges, also where it is not periodic
-  x, y, pixels, status, periods, chaotic_over, periods_run, first_failure,
-  transient, record, version, study
-                     as in `saltus map`
+                     z'/(eta omega_h) (-), the lowest first, a list for each
+                     jumper; empty if not periodic
+    z_min, z_max, v_min, v_max
+                     their ranges, also where it is not periodic
+  and all that `saltus map` tells. In basins.nc the names of what is known of
+  attractors begin with attractor_.
 
 Folder (--out):
   study.toml, basins.json, basins.nc, attractors.csv (one line per attractor,
@@ -259,29 +264,35 @@ switches.
 
 JSON (--json, and continue.json in --out):
   parameter, unit, label, from, to
-                  what changes; second likewise, null without curves
-  special_points  label, kind (PD, ...), name, branch, value of the parameter,
-                  period (forcing periods), outside (Floquet multipliers outside
-                  the unit circle before and after, in the order of the branch),
-                  angle of the multipliers on the circle (rad, NS only),
-                  sequence of switches as in `saltus orbit`, remark, section as
-                  in `saltus simulate`; orbit_value and state (modes, x in the
-                  units of the model) restart it
+                  what changes; with [continue.second] also second_parameter,
+                  second_unit, second_label, second_from, second_to
   branches        branch (from 0), origin (label of the special point where it
-                  begins; null for the first), period, ends (two, in words) and
-    points        in their order along the branch: value, stable (null if
-                  neutral, as in `saltus orbit`), outside,
-                  multiplier (the largest, [re, im]), sequence, section
+                  begins; null for the first), period, points (how many),
+                  value_first, value_last, end_first, end_last (in words)
+  points          of all branches, in their order along each: branch, point,
+                  value, period, stability (as in `saltus orbit`), outside,
+                  multiplier_re, multiplier_im (of the largest), sequence, and
+                  z, v, phase, w, a list for each place of the orbit
+  special_points  label, kind (PD, ...), name, branch, value of the parameter,
+                  period (forcing periods), outside_before, outside_after
+                  (Floquet multipliers outside the unit circle, in the order of
+                  the branch), angle of the multipliers on the circle (rad, NS
+                  only), sequence of switches as in `saltus orbit`, remark, z,
+                  v, phase, w as above; orbit_value, modes and x (in the units
+                  of the model) restart it
   complete        false if there are more branches than are followed
-  curves          label, kind, ends (two, in words), error (null, or why there
-                  is none) and points: values of both parameters, period, angle
+  curves          with [continue.second] curve (from 0), label, kind, points
+                  (how many), end_first, end_last, error (null, or why there is
+                  none)
+  curve_points    of all curves: curve, label, point, value, second_value,
+                  period, angle
   version, study (as resolved)
 
 Folder (--out):
   study.toml, continue.json, branches.csv (one line per point and place of the
-  orbit), special_points.csv, ends.csv, curves.csv, continue.nc (arrays over
-  point, special point and point of a curve, with all multipliers:
-  xarray.open_dataset), and the figures branches and curves as SVG and PNG.
+  orbit), special_points.csv, ends.csv, curves.csv, continue.nc (all of it as
+  arrays, with all multipliers: xarray.open_dataset), and the figures branches
+  and curves as SVG and PNG.
   Behind the branches lie the long-term motions at continue.cloud values, 50
   forcing periods after 150, the state carried on upwards and downwards.";
 

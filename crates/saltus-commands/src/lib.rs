@@ -22,7 +22,6 @@ mod kinds;
 mod lyapunov;
 mod map;
 mod models;
-mod motion;
 mod orbit;
 mod per_jumper;
 mod pieces;

@@ -32,10 +32,11 @@ pub(crate) const STATUS: Quantity = Quantity::one_of(
 );
 pub(crate) const STATUS_TEXT: Quantity =
     Quantity::text("status_text", "How the run ended, in a sentence");
-pub(crate) const STABILITY: Quantity = Quantity::text(
+pub(crate) const STABILITY: Quantity = Quantity::one_of(
     "stability",
-    "stable: all multipliers inside the unit circle; unstable: some outside; neutral: none outside, \
-     and some so near to it that rounding says on which side",
+    "All multipliers inside the unit circle, some outside, or none outside and some so near to it \
+     that rounding says on which side",
+    &["stable", "unstable", "neutral"],
 );
 pub(crate) const SEQUENCE: Quantity = Quantity::text(
     "sequence",
@@ -464,6 +465,278 @@ pub(crate) const FIRST_FAILURE_STATUS: Quantity = Quantity::text(
 pub(crate) const FIRST_FAILURE_STATUS_TEXT: Quantity =
     Quantity::text("first_failure_status_text", "The same in a sentence");
 
+// Branches of periodic orbits
+
+pub(crate) const RANGE_FROM: Quantity =
+    Quantity::new("from", "One end of the range of the parameter", "");
+pub(crate) const RANGE_TO: Quantity = Quantity::new("to", "The other end of the range", "");
+pub(crate) const SECOND_FROM: Quantity = RANGE_FROM.named("second_from");
+pub(crate) const SECOND_TO: Quantity = RANGE_TO.named("second_to");
+pub(crate) const COMPLETE: Quantity = Quantity::text(
+    "complete",
+    "Whether no branch was left out because there were too many",
+);
+pub(crate) const PLACE: Quantity = POINT.named("place");
+pub(crate) const BRANCH: Quantity = number("branch", "Branch, the first one 0");
+pub(crate) const BRANCH_NUMBER: Quantity = BRANCH.named("branch_number");
+pub(crate) const BRANCH_POINT: Quantity = number("point", "Points of all branches");
+pub(crate) const NUMBER_ON_BRANCH: Quantity =
+    number("number", "Number of the point on its branch, from 0");
+pub(crate) const STABLE: Quantity = Quantity::text("stable", "Whether the orbit is stable");
+pub(crate) const NEUTRAL: Quantity = Quantity::text(
+    "neutral",
+    "Whether rounding alone says if the orbit is stable",
+);
+pub(crate) const STABLE_CELL: Quantity = Quantity::text(
+    "stable_cell",
+    "Whether the orbit is stable; neutral where rounding alone says it",
+);
+pub(crate) const LARGEST_REAL: Quantity =
+    number("largest_real", "Largest Floquet multiplier, real");
+pub(crate) const LARGEST_IMAGINARY: Quantity =
+    number("largest_imaginary", "Largest Floquet multiplier, imaginary");
+pub(crate) const BRANCH_ORIGIN: Quantity = Quantity::text(
+    "branch_origin",
+    "Label of the special point where the branch begins; empty if it begins at none",
+);
+pub(crate) const ORIGIN: Quantity = BRANCH_ORIGIN.named("origin");
+pub(crate) const BRANCH_PERIOD: Quantity = PERIOD.named("branch_period");
+pub(crate) const BRANCH_POINTS: Quantity = number("branch_points", "Points of the branch");
+pub(crate) const BRANCH_FIRST: Quantity = Quantity::new(
+    "branch_first",
+    "Value of the parameter at its first point",
+    "",
+);
+pub(crate) const BRANCH_LAST: Quantity = Quantity::new(
+    "branch_last",
+    "Value of the parameter at its last point",
+    "",
+);
+pub(crate) const BRANCH_END_FIRST: Quantity =
+    Quantity::text("branch_end_first", "Why it ends before the first point");
+pub(crate) const BRANCH_END_LAST: Quantity =
+    Quantity::text("branch_end_last", "Why it ends after the last point");
+pub(crate) const SPECIAL_LABEL: Quantity =
+    Quantity::text("special_label", "Label of the special point");
+pub(crate) const SPECIAL_KIND: Quantity =
+    Quantity::text("special_kind", "Kind of the special point, in short");
+pub(crate) const SPECIAL_NAME: Quantity =
+    Quantity::text("special_name", "Kind of the special point");
+pub(crate) const SPECIAL_BRANCH: Quantity = BRANCH.named("special_branch");
+pub(crate) const SPECIAL_PERIOD: Quantity = PERIOD.named("special_period");
+pub(crate) const SPECIAL_OUTSIDE_BEFORE: Quantity = number(
+    "special_outside_before",
+    "Floquet multipliers outside the unit circle before it, in the order of the branch",
+);
+pub(crate) const SPECIAL_OUTSIDE_AFTER: Quantity = number(
+    "special_outside_after",
+    "Floquet multipliers outside the unit circle behind it, in the order of the branch",
+);
+pub(crate) const SPECIAL_ANGLE: Quantity = Quantity::new(
+    "special_angle",
+    "Angle of the multiplier on the unit circle, of Neimark-Sacker points",
+    "rad",
+);
+pub(crate) const SPECIAL_SEQUENCE: Quantity = SEQUENCE.named("special_sequence");
+pub(crate) const SPECIAL_REMARK: Quantity =
+    Quantity::text("special_remark", "Remark on the special point");
+pub(crate) const SPECIAL_ORBIT_VALUE: Quantity = Quantity::new(
+    "special_orbit_value",
+    "Value of the parameter of the orbit at hand, the last one before a grazing",
+    "",
+);
+pub(crate) const SPECIAL_MODES: Quantity = number(
+    "special_modes",
+    "Mode of each jumper in the model, to begin with this orbit again; -1 where it has no such place",
+);
+pub(crate) const SPECIAL_X: Quantity = number(
+    "special_x",
+    "State in the units of the model, to begin with this orbit again",
+);
+pub(crate) const CURVE: Quantity = number("curve", "Curve, the first one 0");
+pub(crate) const CURVE_OF: Quantity = Quantity::text(
+    "curve_of",
+    "Label of the special point that the curve is of, or the word of the study that means none",
+);
+pub(crate) const CURVE_KIND: Quantity = SPECIAL_KIND.named("curve_kind");
+pub(crate) const CURVE_POINTS: Quantity = number("curve_points", "Points of the curve");
+pub(crate) const CURVE_END_FIRST: Quantity = BRANCH_END_FIRST.named("curve_end_first");
+pub(crate) const CURVE_END_LAST: Quantity = BRANCH_END_LAST.named("curve_end_last");
+pub(crate) const CURVE_ERROR: Quantity = Quantity::text("curve_error", "Why there is no curve");
+pub(crate) const CURVE_LABEL: Quantity = Quantity::text(
+    "curve_label",
+    "Label of the special point that the curve is of",
+);
+pub(crate) const CURVE_POINT_KIND: Quantity = CURVE_KIND.named("curve_point_kind");
+pub(crate) const CURVE_NUMBER: Quantity = CURVE.named("curve_number");
+pub(crate) const NUMBER_ON_CURVE: Quantity = number(
+    "number_on_curve",
+    "Number of the point on its curve, from 0",
+);
+pub(crate) const CURVE_PERIOD: Quantity = PERIOD.named("curve_period");
+pub(crate) const CURVE_ANGLE: Quantity = SPECIAL_ANGLE.named("curve_angle");
+
+// Maps and basins: the plane
+
+const fn axis(from: &'static str, to: &'static str, count: &'static str) -> [Quantity; 3] {
+    [
+        Quantity::new(from, "First value along the axis", ""),
+        Quantity::new(to, "Last value along the axis", ""),
+        number(count, "Values along the axis"),
+    ]
+}
+
+pub(crate) const X_AXIS: [Quantity; 3] = axis("x_from", "x_to", "x_count");
+pub(crate) const Y_AXIS: [Quantity; 3] = axis("y_from", "y_to", "y_count");
+pub(crate) const PLANE_TRANSIENT: Quantity = number(
+    "transient",
+    "Forcing periods left out at each pixel, at most",
+);
+pub(crate) const PLANE_RECORD: Quantity = number(
+    "record",
+    "Forcing periods recorded where the motion has not settled",
+);
+pub(crate) const PIXELS: Quantity = number("pixels", "Pixels of the plane");
+pub(crate) const PERIODS_RUN_TOTAL: Quantity =
+    number("periods_run_total", "Forcing periods computed in all");
+
+// Maps and basins: layers
+
+pub(crate) const PIXEL_PERIOD: Quantity = number(
+    "period",
+    "Period of the attractor in forcing periods, 0 where it has none up to 32",
+);
+pub(crate) const PIXEL_STATUS: Quantity = Quantity::one_of(
+    "status",
+    "What became of the motion",
+    &[
+        "periodic",
+        "quasi-periodic",
+        "chaotic",
+        "not-periodic",
+        "undecided",
+        "no-model",
+        "chattering",
+        "not-finite",
+        "too-many-steps",
+        "ended",
+    ],
+);
+pub(crate) const PIXEL_EXPONENT: Quantity = number(
+    "exponent",
+    "Largest Lyapunov exponent per forcing period, where it says what the motion is",
+);
+pub(crate) const CHAOTIC_PERIODS: Quantity = number(
+    "chaotic_periods",
+    "Forcing periods over which a chaotic motion was seen not to settle, 0 where it is not chaotic",
+);
+
+// Maps and basins: what the layers add up to
+
+pub(crate) const OUTCOME: Quantity = PIXEL_STATUS.named("outcome");
+pub(crate) const OUTCOME_PIXELS: Quantity = number("outcome_pixels", "Pixels of which this became");
+pub(crate) const CYCLE_PERIOD: Quantity = number(
+    "cycle_period",
+    "Period of cycles that occur, in forcing periods",
+);
+pub(crate) const CYCLE_PIXELS: Quantity = number("cycle_pixels", "Pixels with this period");
+pub(crate) const CYCLE_SHARE: Quantity = number("cycle_share", "Their part of all pixels");
+pub(crate) const CHAOTIC_OVER_MIN: Quantity = number(
+    "chaotic_over_min",
+    "Fewest chaotic_periods of a chaotic pixel",
+);
+pub(crate) const CHAOTIC_OVER_MAX: Quantity = number(
+    "chaotic_over_max",
+    "Most chaotic_periods of a chaotic pixel",
+);
+pub(crate) const CONTACT_RATIO_RANGE: [Quantity; 2] = [
+    number("contact_ratio_min", "Smallest contact_ratio of all pixels"),
+    number("contact_ratio_max", "Largest contact_ratio of all pixels"),
+];
+pub(crate) const PEAK_REACTION_RANGE: [Quantity; 2] = [
+    number("peak_reaction_min", "Smallest peak_reaction of all pixels"),
+    number("peak_reaction_max", "Largest peak_reaction of all pixels"),
+];
+pub(crate) const PEAK_ACCELERATION_RANGE: [Quantity; 2] = [
+    Quantity::new(
+        "peak_acceleration_min",
+        "Smallest peak_acceleration of all pixels",
+        "m s-2",
+    ),
+    Quantity::new(
+        "peak_acceleration_max",
+        "Largest peak_acceleration of all pixels",
+        "m s-2",
+    ),
+];
+pub(crate) const PLANE_FAILURE_X: Quantity = Quantity::new(
+    "first_failure_x",
+    "Place along x of the first pixel without a motion",
+    "",
+);
+pub(crate) const PLANE_FAILURE_Y: Quantity = Quantity::new(
+    "first_failure_y",
+    "Place along y of the first pixel without a motion",
+    "",
+);
+pub(crate) const PLANE_FAILURE_STATUS: Quantity = Quantity::text(
+    "first_failure_status",
+    "What became of the first pixel without a motion; empty if there is none",
+);
+pub(crate) const PLANE_FAILURE_TEXT: Quantity =
+    Quantity::text("first_failure_status_text", "The same in a sentence");
+
+// Basins
+
+pub(crate) const BASIN: Quantity = number(
+    "attractor",
+    "Number of the attractor in the table attractors, 0 for none",
+);
+pub(crate) const BASIN_NUMBER: Quantity = number(
+    "attractor_number",
+    "Number of the attractor, by its share of the pixels",
+);
+pub(crate) const BASIN_MATCHED: Quantity = number(
+    "attractor_matched",
+    "Its number along the sweep of [attractors]; 0 if it was not met there or nobody asked",
+);
+pub(crate) const BASIN_PERIOD: Quantity = number(
+    "attractor_period",
+    "Period in forcing periods; 0 if not periodic",
+);
+pub(crate) const BASIN_KIND: Quantity = Quantity::one_of(
+    "attractor_kind",
+    "What kind of motion it is",
+    &[
+        "periodic",
+        "quasi-periodic",
+        "chaotic",
+        "not-periodic",
+        "undecided",
+    ],
+);
+pub(crate) const BASIN_PIXELS: Quantity = number("attractor_pixels", "Pixels that lead to it");
+pub(crate) const BASIN_SHARE: Quantity = number("attractor_share", "Their part of all pixels");
+pub(crate) const BASIN_CONTACT_RATIO: Quantity = CONTACT_RATIO.named("attractor_contact_ratio");
+pub(crate) const BASIN_PEAK_REACTION: Quantity = PEAK_REACTION.named("attractor_peak_reaction");
+pub(crate) const BASIN_PEAK_ACCELERATION: Quantity =
+    PEAK_ACCELERATION.named("attractor_peak_acceleration");
+pub(crate) const BASIN_SAMPLE: Quantity = number(
+    "sample",
+    "Sample of a cycle at cos(Omega t) = 1, the lowest first",
+);
+pub(crate) const BASIN_SAMPLE_CELL: Quantity = BASIN_SAMPLE.named("sample_cell");
+pub(crate) const BASIN_Z: Quantity = Z.named("attractor_z");
+pub(crate) const BASIN_V: Quantity = V.named("attractor_v");
+pub(crate) const BASIN_Z_RANGE: [Quantity; 2] = [
+    number("attractor_z_min", "Smallest z of its samples"),
+    number("attractor_z_max", "Largest z of its samples"),
+];
+pub(crate) const BASIN_V_RANGE: [Quantity; 2] = [
+    number("attractor_v_min", "Smallest v of its samples"),
+    number("attractor_v_max", "Largest v of its samples"),
+];
+
 // The figures of the paper
 
 pub(crate) const PANEL: Quantity = Quantity::text("panel", "Panel of the figure");
@@ -521,12 +794,7 @@ pub(crate) const TRANSITION_SEEN: Quantity = Quantity::one_of(
 pub(crate) const TRANSITION_SWITCHES: Quantity =
     Quantity::text("transition_switches", "Order of the switches");
 pub(crate) const BRANCH_RATIO: Quantity = RATIO.named("branch_frequency_ratio");
-pub(crate) const BRANCH_NUMBER: Quantity = number("branch", "Branch, the first one 0");
-pub(crate) const BRANCH_ORIGIN: Quantity = Quantity::text(
-    "branch_origin",
-    "Label of the special point where the branch begins; none if followed from a motion",
-);
-pub(crate) const BRANCH_POINT: Quantity = number(
+pub(crate) const PAPER_BRANCH_POINT: Quantity = number(
     "branch_point_number",
     "Number of the point on its branch, from 0",
 );

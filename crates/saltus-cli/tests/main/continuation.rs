@@ -30,6 +30,12 @@ fn branches(desk: &Desk, args: &[&str]) -> Value {
     )
 }
 
+/// The points of a branch.
+fn points(found: &Value, branch: u64) -> impl Iterator<Item = &Value> {
+    let all = found["points"].as_array().unwrap().iter();
+    all.filter(move |point| point["branch"] == branch)
+}
+
 /// Labels and values.
 fn specials(found: &Value) -> Vec<(String, f64)> {
     let all = found["special_points"].as_array().unwrap().iter();
@@ -70,25 +76,30 @@ fn the_branch_at_0_9_doubles_once() {
         (&special["kind"], &special["period"]),
         (&"PD".into(), &1.into())
     );
-    assert_eq!(special["outside"], serde_json::json!([1, 0]));
+    assert_eq!(
+        (&special["outside_before"], &special["outside_after"]),
+        (&1.into(), &0.into())
+    );
     let limbs = found["branches"].as_array().unwrap();
     let told: Vec<_> = limbs.iter().map(|l| (&l["origin"], &l["period"])).collect();
     assert_eq!(
         told,
         [(&Value::Null, &1.into()), (&"PD1".into(), &2.into())]
     );
-    assert_eq!(
-        limbs[0]["ends"],
-        serde_json::json!(["end of the range", "end of the range"])
-    );
-    let points = limbs[0]["points"].as_array().unwrap();
+    for end in ["end_first", "end_last"] {
+        assert_eq!(limbs[0][end], "end of the range");
+    }
+    let points: Vec<&Value> = points(&found, 0).collect();
+    assert_eq!(limbs[0]["points"], points.len());
     let value = |point: &Value| point["value"].as_f64().unwrap();
     assert_eq!(
-        (value(&points[0]), value(&points[points.len() - 1])),
+        (value(points[0]), value(points[points.len() - 1])),
         (0.1, 0.5)
     );
     for point in points {
-        assert_eq!(point["stable"], value(point) > value(special), "{point}");
+        let stable = value(point) > value(special);
+        let expected = if stable { "stable" } else { "unstable" };
+        assert_eq!(point["stability"], expected, "{point}");
     }
     let written = files(&desk.path("results"));
     let names: Vec<&str> = written.keys().map(String::as_str).collect();
@@ -118,8 +129,7 @@ fn the_branch_at_0_9_doubles_once() {
             - 1
     };
     let orbits = limbs.iter().map(|limb| {
-        let points = limb["points"].as_array().unwrap().len();
-        points * limb["period"].as_u64().unwrap() as usize
+        limb["points"].as_u64().unwrap() as usize * limb["period"].as_u64().unwrap() as usize
     });
     assert_eq!(rows("branches.csv"), orbits.sum::<usize>());
     assert_eq!(
@@ -156,7 +166,7 @@ fn the_branch_at_1_folds_doubles_and_meets_half_its_period() {
     );
     assert_eq!(found["branches"][0]["period"], 2);
     assert_eq!(
-        found["branches"][0]["ends"][1],
+        found["branches"][0]["end_last"],
         "meets the branch of half its period"
     );
     a_result_is_gone_on_from(&desk);
@@ -202,8 +212,8 @@ fn a_result_is_gone_on_from(desk: &Desk) {
         "LP1",
         &[&other[..], &["--set", "continue.doublings=0"]].concat(),
     );
-    assert_eq!(across["branches"][0]["ends"].as_array().unwrap().len(), 2);
-    assert!(across["branches"][0]["points"].as_array().unwrap().len() > 2);
+    assert!(across["branches"][0]["end_first"].is_string());
+    assert!(points(&across, 0).count() > 2);
     let paper = desk.paper();
     for (args, said) in [
         (
@@ -276,14 +286,17 @@ fn a_doubling_becomes_a_curve_and_what_has_none_is_told() {
             .unwrap()
             .contains("no such special point")
     );
-    let points = curves[0]["points"].as_array().unwrap();
-    let value = |point: &Value, i: usize| point["values"][i].as_f64().unwrap();
-    let ends = [&points[0], &points[points.len() - 1]].map(|point| value(point, 1));
+    assert_eq!(found["second_parameter"], "base.frequency_ratio");
+    let points = found["curve_points"].as_array().unwrap();
+    assert_eq!(curves[0]["points"], points.len());
+    let value = |point: &Value, which: &str| point[which].as_f64().unwrap();
+    let ends = [&points[0], &points[points.len() - 1]].map(|point| value(point, "second_value"));
     assert!((ends[0] - ends[1]).abs() > 0.03, "{ends:?}");
     // it passes the doubling that it began with
-    let near = points
-        .iter()
-        .any(|p| (value(p, 0) - 0.1892865091).abs() < 1e-8 && (value(p, 1) - 0.9).abs() < 1e-8);
+    let near = points.iter().any(|point| {
+        (value(point, "value") - 0.1892865091).abs() < 1e-8
+            && (value(point, "second_value") - 0.9).abs() < 1e-8
+    });
     assert!(near);
     assert!(desk.path("results").join("curves.svg").exists());
 }

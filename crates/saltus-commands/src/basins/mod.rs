@@ -1,22 +1,18 @@
 //! `saltus basins`: which long-term motion each first state leads to.
 
+mod data;
 mod figures;
-mod report;
 mod summary;
-mod tables;
 
-use crate::answer::{Answer, Take, stream_json};
+use crate::answer::{Answer, Take};
 use crate::attractors;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::pieces::{self, Divided, Kept};
 use crate::plane::{self, Begun, Cell, Layers, Pixels, Plane};
-use crate::store::Store;
-use report::Report;
 use saltus::study::{Catalogue, Entry};
 use saltus_config::Study;
-use saltus_results::{Dataset, Variable};
-use std::io::{self, Write};
+use saltus_results::Dataset;
 use std::path::Path;
 
 /// Shown to those whose study has none.
@@ -54,7 +50,7 @@ struct Finding {
     number: Vec<Option<usize>>,
 }
 
-/// An answer.
+/// What was found, for a study.
 struct Found {
     study: Study,
     plane: Plane,
@@ -169,35 +165,17 @@ impl Answer for Found {
     }
 
     fn data(&self) -> Dataset {
-        let title = "Basins of attraction of a jumper on a plate";
-        let plane = &self.plane;
-        let over = [plane.y.variable(), plane.x.variable()];
-        let numbers = self.basins.attractor.clone();
-        let attractor = Variable::new("attractor", &[&over[0], &over[1]], numbers)
-            .long_name("Number of the attractor in the table attractors, 0 for none")
-            .units("1");
-        let layers = self.basins.layers.clone();
-        plane::dataset(title, &self.study, plane, layers).variable(attractor)
-    }
-
-    fn draw(&self, _: Take) -> Result<(), Failure> {
-        Ok(())
+        data::data(self)
     }
 
     fn summary(&self) -> String {
-        summary::text(&self.plane, &self.report())
+        summary::text(&self.plane, &self.basins)
     }
 
-    fn document(&self, _: &Dataset, to: &mut dyn Write) -> io::Result<()> {
-        stream_json(to, &self.report())
-    }
-
-    fn fill(&self, store: &mut dyn Store, name: &str, data: Dataset) -> Result<(), Failure> {
+    fn draw(&self, take: Take) -> Result<(), Failure> {
         let Self { plane, basins, .. } = self;
-        tables::write(store, &self.study, &self.report())?;
-        store.figure("basins", &figures::basins(plane, basins))?;
-        store.figure("layers", &plane::layers_figure(plane, &basins.layers))?;
-        store.put_dataset(name, data)
+        take("basins", &figures::basins(plane, basins))?;
+        take("layers", &plane::layers_figure(plane, &basins.layers))
     }
 
     fn pieces(&self) -> Option<&Path> {
@@ -206,11 +184,5 @@ impl Answer for Found {
 
     fn stored(&mut self) -> Result<(), Failure> {
         self.kept.remove()
-    }
-}
-
-impl Found {
-    fn report(&self) -> Report<'_> {
-        Report::new(&self.study, &self.plane, &self.basins)
     }
 }

@@ -1,59 +1,46 @@
 //! What `saltus basins` says to people.
 
-use super::Plane;
-use super::report::Report;
+use super::Basins;
+use crate::plane::{Plane, Tally, period};
 use saltus::orbits::MotionKind;
+use saltus::study::Entry;
 use std::fmt::Write;
 
 /// Attractors listed.
 const LISTED: usize = 12;
 
-pub(super) fn text(plane: &Plane, report: &Report) -> String {
-    let mut text = format!(
-        "{} from {} to {}, {} from {} to {}: {}, {} attractors\n",
-        plane.x.parameter.label(),
-        plane.x.table.from(),
-        plane.x.table.to(),
-        plane.y.parameter.label(),
-        plane.y.table.from(),
-        plane.y.table.to(),
-        plane.size(),
-        report.attractors.len()
-    );
-    for attractor in report.attractors.iter().take(LISTED) {
-        let contact: Vec<String> = attractor
-            .contact_ratio
-            .as_slice()
-            .iter()
-            .map(|c| format!("{c:.3}"))
-            .collect();
-        let over = report.tally.chaotic_over;
-        let over = over.filter(|_| attractor.kind == MotionKind::Chaotic.name());
-        let over = over.map_or(String::new(), |span| {
-            format!(" for {} periods and more", span.min)
-        });
-        // writing to a string cannot fail
-        let _ = writeln!(
-            text,
-            "  {:>3}  {:>5.1} %  {}{over}, contact {}, first from [{:.4}, {:.4}]",
-            attractor.number,
-            100.0 * attractor.share,
-            attractor.name(),
-            contact.join(" and "),
-            attractor.start[0],
-            attractor.start[1]
-        );
+pub(super) fn text(plane: &Plane, basins: &Basins) -> String {
+    let (attractors, tally) = (&basins.attractors, basins.layers.tally());
+    let mut text = format!("{}, {} attractors\n", plane.text(), attractors.len());
+    for (place, entry) in attractors.iter().take(LISTED).enumerate() {
+        text += &line(plane, place, entry, &tally);
     }
-    if report.attractors.len() > LISTED {
-        let _ = writeln!(text, "  and {} more", report.attractors.len() - LISTED);
+    // writing to a string cannot fail
+    if attractors.len() > LISTED {
+        let _ = writeln!(text, "  and {} more", attractors.len() - LISTED);
     }
-    let lost = report.tally.without_attractor();
+    let lost = tally.without_attractor();
     if lost > 0 {
-        let share = 100.0 * lost as f64 / report.pixels as f64;
+        let share = 100.0 * lost as f64 / plane.grid.len() as f64;
         let _ = writeln!(text, "       {share:>5.1} %  undecided or failed");
     }
-    if let Some(failure) = &report.first_failure {
-        let _ = writeln!(text, "  first failure: {}", failure.status_text);
-    }
-    text
+    text + &basins.layers.first_failure()
+}
+
+fn line(plane: &Plane, place: usize, entry: &Entry, tally: &Tally) -> String {
+    let motion = &entry.attractor;
+    let contact = motion.contact_ratio.iter();
+    let contact: Vec<String> = contact.map(|ratio| format!("{ratio:.3}")).collect();
+    let over = match motion.kind {
+        MotionKind::Chaotic => tally.chaotic_for(),
+        _ => String::new(),
+    };
+    let kind = period(motion.kind).map_or(motion.kind.name().to_owned(), |n| format!("{n}T"));
+    let (x, y) = plane.grid.at(entry.first);
+    format!(
+        "  {:>3}  {:>5.1} %  {kind}{over}, contact {}, first from [{x:.4}, {y:.4}]\n",
+        place + 1,
+        100.0 * entry.share(plane.grid.len() as u64),
+        contact.join(" and "),
+    )
 }

@@ -2,7 +2,7 @@
 
 use super::question::Question;
 use crate::kinds;
-use saltus::orbits::{Curve, Family, Limb, Special, follow_curve};
+use saltus::orbits::{Curve, CurvePoint, Family, Limb, Special, follow_curve};
 
 /// What became of a curve that was asked for.
 pub(super) struct Followed {
@@ -12,6 +12,20 @@ pub(super) struct Followed {
     pub(super) special: Option<Special>,
     /// The curve, or why there is none.
     pub(super) outcome: Result<Curve, String>,
+}
+
+impl Followed {
+    /// The points of the curve; none if there is no curve.
+    pub(super) fn points(&self) -> &[CurvePoint] {
+        self.outcome.as_ref().map_or(&[], |curve| &curve.points)
+    }
+
+    /// Kind of the special point, in short; empty if there is none.
+    pub(super) fn kind(&self) -> &str {
+        self.special
+            .as_ref()
+            .map_or("", |special| special.kind.short())
+    }
 }
 
 /// Follows the curves asked for, each until `go_on` says no.

@@ -1,34 +1,34 @@
 //! Branches over their parameter, and curves of special points over two.
 
-use super::Run;
+use super::Found;
 use super::diagram::track;
+use crate::answer::Take;
 use crate::failure::Failure;
 use crate::kinds;
 use crate::per_jumper::{PANELS, panel_title};
-use crate::store::Store;
 use crate::words::{base_in_title, capitalized};
 use saltus::study::SweepRow;
 use saltus_config::Parameter;
 use saltus_results::{Axis, BifurcationSet, Branches, Figure};
 
-pub(super) fn write(folder: &mut dyn Store, run: &Run) -> Result<(), Failure> {
-    folder.figure("branches", &diagram(run))?;
-    if run.curves.iter().any(|curve| curve.outcome.is_ok()) {
-        folder.figure("curves", &curves(run))?;
+pub(super) fn draw(found: &Found, take: Take) -> Result<(), Failure> {
+    take("branches", &diagram(found))?;
+    if found.curves.iter().any(|curve| curve.outcome.is_ok()) {
+        take("curves", &curves(found))?;
     }
     Ok(())
 }
 
-fn diagram(run: &Run) -> Figure {
-    let base = base_in_title(&run.study, Some(&run.question.parameter));
-    let inertia = run.model.setup().inertia.name();
+fn diagram(found: &Found) -> Figure {
+    let base = base_in_title(&found.study, Some(&found.question.parameter));
+    let inertia = found.model.setup().inertia.name();
     let title = format!("Branches of periodic orbits: {base}in-plane inertia {inertia}");
-    let jumpers = run.study.jumper.len();
+    let jumpers = found.study.jumper.len();
     let shown = jumpers.min(PANELS);
     if shown == 1 {
-        return Figure::new(branches(run, 0, &title));
+        return Figure::new(branches(found, 0, &title));
     }
-    let panels = (0..shown).map(|i| branches(run, i, &panel_title(i, jumpers)).into());
+    let panels = (0..shown).map(|i| branches(found, i, &panel_title(i, jumpers)).into());
     Figure::grid(1, panels).title(title)
 }
 
@@ -36,22 +36,22 @@ fn axis(parameter: &Parameter, from: f64, to: f64) -> Axis {
     Axis::new(capitalized(&parameter.label())).range(from, to)
 }
 
-fn branches(run: &Run, jumper: usize, title: &str) -> Branches {
-    let table = &run.question.table;
+fn branches(found: &Found, jumper: usize, title: &str) -> Branches {
+    let table = &found.question.table;
     let mut diagram = Branches::new(
         title,
-        axis(&run.question.parameter, table.from, table.to),
+        axis(&found.question.parameter, table.from, table.to),
         Axis::new("Height z/η at cos Ωt = 1 (-)"),
     );
-    if !run.cloud.is_empty() {
-        let points = run.cloud.iter().flat_map(|row: &SweepRow| {
+    if !found.cloud.is_empty() {
+        let points = found.cloud.iter().flat_map(|row: &SweepRow| {
             let heights = row.z.get(jumper).map_or(&[][..], Vec::as_slice);
             heights.iter().map(|&z| (row.value, z))
         });
         let (values, heights): (Vec<f64>, Vec<f64>) = points.unzip();
         diagram = diagram.cloud("Long-term motion, both ways", values, heights);
     }
-    for (limb, view) in run.limbs.iter().zip(&run.views) {
+    for (limb, view) in found.limbs.iter().zip(&found.views) {
         let track = track(limb, view, jumper);
         let label = format!("Period {}", track.heights.len());
         diagram = diagram.branch(label, track.values, &track.stable, track.heights);
@@ -64,13 +64,13 @@ fn branches(run: &Run, jumper: usize, title: &str) -> Branches {
     diagram
 }
 
-fn curves(run: &Run) -> Figure {
-    let table = &run.question.table;
-    let first = axis(&run.question.parameter, table.from, table.to);
-    let second = run.question.second.as_ref();
+fn curves(found: &Found) -> Figure {
+    let table = &found.question.table;
+    let first = axis(&found.question.parameter, table.from, table.to);
+    let second = found.question.second.as_ref();
     let second = second.map_or(Axis::new(""), |(t, p)| axis(p, t.from, t.to));
     let mut set = BifurcationSet::new("Bifurcations of periodic orbits", first, second);
-    for followed in &run.curves {
+    for followed in &found.curves {
         if let (Some(special), Ok(curve)) = (&followed.special, &followed.outcome) {
             let points = curve.points.iter().map(|point| point.parameters.into());
             let (x, y): (Vec<f64>, Vec<f64>) = points.unzip();

@@ -1,33 +1,28 @@
 //! `saltus continue`: branches of periodic orbits over a parameter, and curves of their special points over two.
 
 mod curves;
-mod dataset;
+mod data;
 mod diagram;
 mod figures;
 mod origin;
 mod question;
-mod report;
 mod summary;
-mod tables;
 mod view;
 
-use crate::answer::{Answer, Take, stream_json};
+use crate::answer::{Answer, Take};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::models::Models;
-use crate::store::Store;
 use curves::Followed;
 pub use origin::Labelled;
 use origin::Origin;
 use question::Question;
-use report::Report;
 use saltus::hybrid::System;
 use saltus::model::{Model, ModelError};
 use saltus::orbits::{Limb, NewtonOptions, Orbit, Stroboscopic, branches, find_orbit};
 use saltus::study::{Control, OrbitSearch, Pass, Sweep, SweepRow, orbit_of, stroboscopic, sweep};
 use saltus_config::Study;
 use saltus_results::Dataset;
-use std::io::{self, Write};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use view::View;
@@ -36,7 +31,7 @@ use view::View;
 const CLOUD: (u64, u64) = (150, 50);
 
 /// What was found.
-struct Run {
+struct Found {
     study: Study,
     /// At the start.
     model: Model,
@@ -69,7 +64,7 @@ fn follow(
     question: Question,
     origin: Option<&Origin>,
     context: &Context,
-) -> Result<Run, Failure> {
+) -> Result<Found, Failure> {
     let control = &context.control(study);
     let models = Models::new(study, &question.parameters(), control.options);
     let model_at = |values: &[f64]| models.at(values);
@@ -95,7 +90,7 @@ fn follow(
     context.check()?;
     let cloud = cloud(study, &question, &models, context)?;
     context.check()?;
-    Ok(Run {
+    Ok(Found {
         study: study.clone(),
         model,
         question,
@@ -168,31 +163,20 @@ fn cloud(
     Ok(rows)
 }
 
-impl Answer for Run {
+impl Answer for Found {
     fn study(&self) -> &Study {
         &self.study
     }
 
     fn data(&self) -> Dataset {
-        dataset::dataset(self, &Report::new(self))
-    }
-
-    fn draw(&self, _: Take) -> Result<(), Failure> {
-        Ok(())
+        data::data(self)
     }
 
     fn summary(&self) -> String {
-        summary::text(self, &Report::new(self))
+        summary::text(self)
     }
 
-    fn document(&self, _: &Dataset, to: &mut dyn Write) -> io::Result<()> {
-        stream_json(to, &Report::new(self))
-    }
-
-    fn fill(&self, store: &mut dyn Store, name: &str, data: Dataset) -> Result<(), Failure> {
-        let report = Report::new(self);
-        tables::write(store, self, &report)?;
-        store.put_dataset(name, data)?;
-        figures::write(store, self)
+    fn draw(&self, take: Take) -> Result<(), Failure> {
+        figures::draw(self, take)
     }
 }

@@ -47,13 +47,51 @@ struct SpecialPoint {
     label: String,
     kind: String,
     orbit_value: f64,
-    state: Vec<State>,
+    /// Of each place of the orbit.
+    modes: Vec<Vec<usize>>,
+    x: Vec<Vec<f64>>,
 }
 
-#[derive(Deserialize)]
-struct State {
-    modes: Vec<usize>,
-    x: Vec<f64>,
+impl Document {
+    /// The special point `label`; `path` is where the document is.
+    fn special(&self, label: &str, path: &Path) -> Result<&SpecialPoint, Failure> {
+        let known = self.special_points.as_slice();
+        let chosen = known.iter().find(|special| special.label == label);
+        chosen.ok_or_else(|| {
+            let labels: Vec<&str> = known.iter().map(|special| special.label.as_str()).collect();
+            let help = match labels.as_slice() {
+                [] => "it has no special points at all".to_owned(),
+                labels => format!("those found: {}", labels.join(", ")),
+            };
+            let message = format!(
+                "--at {}: `{}` has no such point",
+                printable(label),
+                shown::path(path)
+            );
+            Failure::refused(message, help)
+        })
+    }
+}
+
+impl SpecialPoint {
+    /// The orbit in the units of its own model; `None` if a place is only half known.
+    fn places(&self) -> Option<Vec<Place>> {
+        let place = |(modes, x): (&Vec<usize>, &Vec<f64>)| Place {
+            modes: modes.clone(),
+            x: x.clone(),
+        };
+        let whole = self.modes.len() == self.x.len();
+        whole.then(|| self.modes.iter().zip(&self.x).map(place).collect())
+    }
+}
+
+/// Reads an ordinary file of at most `most` bytes.
+fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, ResultsError> {
+    ordinary::read(path, most).map_err(|source| ResultsError::Io {
+        action: "read",
+        path: path.to_path_buf(),
+        source,
+    })
 }
 
 /// The orbit with the model it is one of.
@@ -69,13 +107,6 @@ impl Origin {
     /// The orbit `label` of the result in `folder`.
     pub(super) fn read(folder: &Path, label: &str) -> Result<Self, Failure> {
         let path = folder.join(DOCUMENT);
-        let bytes = |path: &Path, most| {
-            ordinary::read(path, most).map_err(|source| ResultsError::Io {
-                action: "read",
-                path: path.to_path_buf(),
-                source,
-            })
-        };
         let text = bytes(&path, LARGEST)?;
         let damaged = |why: &dyn std::fmt::Display| {
             Failure::work(
@@ -87,48 +118,28 @@ impl Origin {
         let file = folder.join("study.toml");
         let study = bytes(&file, ordinary::TEXT)?;
         let study = saltus_config::read(&file.display().to_string(), &study[..], &[])?;
-        let known = document.special_points.as_slice();
-        let chosen = known.iter().find(|special| special.label == label);
-        let Some(chosen) = chosen else {
-            let labels: Vec<&str> = known.iter().map(|special| special.label.as_str()).collect();
-            let help = match labels.as_slice() {
-                [] => "it has no special points at all".to_owned(),
-                labels => format!("those found: {}", labels.join(", ")),
-            };
-            let message = format!(
-                "--at {}: `{}` has no such point",
-                printable(label),
-                shown::path(&path)
-            );
-            return Err(Failure::refused(message, help));
-        };
+        let chosen = document.special(label, &path)?;
         let parameter = Parameter::parse(&document.parameter)?;
         let study = parameter.apply(&study, chosen.orbit_value)?;
         let model = study.setup().model()?;
-        let fits = |state: &State| {
+        let fits = |place: &Place| {
             let modes = if study.contact.law == Law::Gap { 3 } else { 2 };
-            state.x.len() == model.free_states()
-                && state.modes.len() == study.jumper.len()
-                && state.modes.iter().all(|&mode| mode < modes)
+            place.x.len() == model.free_states()
+                && place.modes.len() == study.jumper.len()
+                && place.modes.iter().all(|&mode| mode < modes)
         };
-        if !chosen.state.iter().all(fits) {
-            return Err(damaged(&format!(
-                "the state of {label} is not one of its study"
-            )));
-        }
+        let places = chosen.places().filter(|places| places.iter().all(fits));
+        let mut places = places
+            .ok_or_else(|| damaged(&format!("the state of {label} is not one of its study")))?;
         // where a branch meets that of half its period, the halves of its orbit are one
         let halves = if chosen.kind == "HP" { 2 } else { 1 };
-        let states = &chosen.state[..chosen.state.len() / halves];
-        let place = |state: &State| Place {
-            modes: state.modes.clone(),
-            x: state.x.clone(),
-        };
+        places.truncate(places.len() / halves);
         Ok(Self {
             study,
             model,
             parameter,
             value: chosen.orbit_value,
-            places: states.iter().map(place).collect(),
+            places,
         })
     }
 

@@ -52,9 +52,14 @@ pub(crate) fn base(set: Dataset, model: &Model) -> Dataset {
 
 /// Which parameter changes, as attributes.
 pub(crate) fn parameter(set: Dataset, parameter: &Parameter) -> Dataset {
-    set.attribute("parameter", parameter.key())
-        .attribute("unit", parameter.unit())
-        .attribute("label", parameter.label())
+    parameter_of(set, "", parameter)
+}
+
+/// One of several parameters that change; names begin with `prefix`.
+pub(crate) fn parameter_of(set: Dataset, prefix: &str, parameter: &Parameter) -> Dataset {
+    set.attribute(format!("{prefix}parameter"), parameter.key())
+        .attribute(format!("{prefix}unit"), parameter.unit())
+        .attribute(format!("{prefix}label"), parameter.label())
 }
 
 /// Name of the variable with the values of a parameter: `jumper_damping_ratio`.
@@ -67,8 +72,13 @@ pub(crate) fn values(parameter: &Parameter, axes: &[&str], values: Vec<f64>) -> 
     let label = parameter.label();
     let unit = format!(" ({})", parameter.unit());
     let meaning = capitalized(label.strip_suffix(&unit).unwrap_or(&label));
-    Variable::new(name(parameter), axes, values)
-        .long_name(meaning)
+    let variable = Variable::new(name(parameter), axes, values).long_name(meaning);
+    in_unit_of(parameter, variable)
+}
+
+/// Gives values of a parameter its unit, and says which parameter it is.
+pub(crate) fn in_unit_of(parameter: &Parameter, variable: Variable) -> Variable {
+    variable
         .units(units(parameter.unit()))
         .attribute("study_key", parameter.key())
 }

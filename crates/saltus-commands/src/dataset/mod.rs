@@ -3,10 +3,8 @@
 pub(crate) mod motion;
 
 use crate::words::capitalized;
-use saltus::model::Model;
 use saltus_config::{Parameter, Study};
 use saltus_results::{Dataset, Values, Variable};
-use std::f64::consts::TAU;
 
 /// A dataset that says where it comes from.
 pub(crate) fn about(title: &str, study: &Study) -> Dataset {
@@ -69,13 +67,6 @@ pub(crate) fn padded(values: &[f64], length: usize) -> impl Iterator<Item = f64>
     let missing = length.saturating_sub(values.len());
     let missing = std::iter::repeat_n(f64::NAN, missing);
     values.iter().copied().take(length).chain(missing)
-}
-
-/// The frequency of the base, a single value.
-pub(crate) fn base_frequency(model: &Model) -> Variable {
-    let hertz = model.scales().omega / TAU;
-    let meaning = ("Frequency of the base motion", "Hz");
-    variable("base_frequency", &[], hertz, meaning)
 }
 
 /// Name of a variable with the values of a parameter: `jumper_damping_ratio`.

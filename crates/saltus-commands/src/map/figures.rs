@@ -1,11 +1,10 @@
 //! The figures of a map.
 
 use crate::plane::{Layers, Plane, Status};
-use saltus::orbits::MotionKind;
 use saltus_results::{Class, ClassMap, Colour, Figure};
 
 /// Periods with a colour of their own: doublings first, as they are the most frequent.
-const PERIODS: [u32; 9] = [1, 2, 4, 8, 3, 6, 5, 7, 16];
+const PERIODS: [u16; 9] = [1, 2, 4, 8, 3, 6, 5, 7, 16];
 
 /// The periods, and what is not periodic.
 pub(super) fn periods(plane: &Plane, layers: &Layers) -> Figure {
@@ -19,10 +18,7 @@ pub(super) fn periods(plane: &Plane, layers: &Layers) -> Figure {
         };
         Class::new(label, Colour::SERIES[i])
     });
-    let chaotic = match layers.tally().chaotic_over {
-        Some(span) => format!("Chaotic for {} periods and more", span.min),
-        None => "Chaotic".to_owned(),
-    };
+    let chaotic = format!("Chaotic{}", layers.tally().chaotic_for());
     let others = [
         Class::new("Another period up to 32", Colour::OTHER),
         // the colour that the periods leave
@@ -33,18 +29,23 @@ pub(super) fn periods(plane: &Plane, layers: &Layers) -> Figure {
         Class::new("Failed", Colour::FAILED),
     ];
     let other = PERIODS.len() as u8;
-    let class = |status: &Status| match status {
-        Status::Motion(MotionKind::Periodic(n)) => order
+    let class = |(&status, &period): (&Status, &u16)| match status {
+        Status::Periodic => order
             .iter()
-            .position(|&i| PERIODS[i] == *n)
+            .position(|&i| PERIODS[i] == period)
             .map_or(other, |place| place as u8),
-        Status::Motion(MotionKind::QuasiPeriodic) => other + 1,
-        Status::Motion(MotionKind::Chaotic) => other + 2,
-        Status::Motion(MotionKind::NotPeriodic) => other + 3,
-        Status::Motion(MotionKind::Undecided) => other + 4,
-        Status::Lost(_) => other + 5,
+        Status::QuasiPeriodic => other + 1,
+        Status::Chaotic => other + 2,
+        Status::NotPeriodic => other + 3,
+        Status::Undecided => other + 4,
+        _ => other + 5,
     };
-    let cells: Vec<u8> = layers.status.iter().map(class).collect();
+    let cells: Vec<u8> = layers
+        .status
+        .iter()
+        .zip(&layers.period)
+        .map(class)
+        .collect();
     let map = ClassMap::new(
         "The motion repeats",
         plane.figure_grid(),

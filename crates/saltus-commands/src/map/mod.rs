@@ -1,20 +1,16 @@
 //! `saltus map`: long-term motion at each point of a plane of two parameters.
 
 mod figures;
-mod report;
 mod summary;
 
-use crate::answer::{Answer, Take, stream_json};
+use crate::answer::{Answer, Take};
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::models::Models;
 use crate::pieces::{self, Divided, Kept};
 use crate::plane::{self, Begun, Cell, Layers, Pixels, Plane};
-use crate::store::Store;
-use report::Report;
 use saltus_config::Study;
 use saltus_results::Dataset;
-use std::io::{self, Write};
 use std::path::Path;
 
 /// Shown to those whose study has none.
@@ -34,7 +30,7 @@ add a table that says what changes, such as
   count = 64";
 
 /// What was found.
-struct Map {
+struct Found {
     study: Study,
     plane: Plane,
     layers: Layers,
@@ -48,7 +44,7 @@ pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, F
     if let Err(failure) = layers.refuse_if_all_lost() {
         return kept.remove().and(Err(failure));
     }
-    Ok(Box::new(Map {
+    Ok(Box::new(Found {
         study: study.clone(),
         plane: job.plane,
         layers,
@@ -94,33 +90,23 @@ fn question(study: &Study) -> Result<Plane, Failure> {
     )
 }
 
-impl Answer for Map {
+impl Answer for Found {
     fn study(&self) -> &Study {
         &self.study
     }
 
     fn data(&self) -> Dataset {
         let title = "Attractors of a jumper on a plate over two parameters";
-        plane::dataset(title, &self.study, &self.plane, self.layers.clone())
-    }
-
-    fn draw(&self, _: Take) -> Result<(), Failure> {
-        Ok(())
+        plane::data(title, &self.study, &self.plane, &self.layers)
     }
 
     fn summary(&self) -> String {
-        summary::text(&self.plane, &self.report())
+        summary::text(self)
     }
 
-    fn document(&self, _: &Dataset, to: &mut dyn Write) -> io::Result<()> {
-        stream_json(to, &self.report())
-    }
-
-    fn fill(&self, store: &mut dyn Store, name: &str, data: Dataset) -> Result<(), Failure> {
-        let Self { plane, layers, .. } = self;
-        store.figure("map", &figures::periods(plane, layers))?;
-        store.figure("layers", &plane::layers_figure(plane, layers))?;
-        store.put_dataset(name, data)
+    fn draw(&self, take: Take) -> Result<(), Failure> {
+        take("map", &figures::periods(&self.plane, &self.layers))?;
+        take("layers", &plane::layers_figure(&self.plane, &self.layers))
     }
 
     fn pieces(&self) -> Option<&Path> {
@@ -129,11 +115,5 @@ impl Answer for Map {
 
     fn stored(&mut self) -> Result<(), Failure> {
         self.kept.remove()
-    }
-}
-
-impl Map {
-    fn report(&self) -> Report<'_> {
-        Report::new(&self.study, &self.plane, &self.layers)
     }
 }

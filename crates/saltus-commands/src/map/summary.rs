@@ -1,22 +1,12 @@
 //! What `saltus map` says to people.
 
-use super::Plane;
-use super::report::Report;
+use super::Found;
 use std::fmt::Write;
 
-pub(super) fn text(plane: &Plane, report: &Report) -> String {
-    let mut text = format!(
-        "{} from {} to {}, {} from {} to {}: {}\n",
-        plane.x.parameter.label(),
-        plane.x.table.from(),
-        plane.x.table.to(),
-        plane.y.parameter.label(),
-        plane.y.table.from(),
-        plane.y.table.to(),
-        plane.size()
-    );
-    text += &report.tally.text();
-    if let Some(span) = report.peak_acceleration {
+pub(super) fn text(found: &Found) -> String {
+    let layers = &found.layers;
+    let mut text = format!("{}\n{}", found.plane.text(), layers.tally().text());
+    if let Some(span) = layers.acceleration() {
         // writing to a string cannot fail
         let _ = writeln!(
             text,
@@ -24,8 +14,5 @@ pub(super) fn text(plane: &Plane, report: &Report) -> String {
             span.max, span.min
         );
     }
-    if let Some(failure) = &report.first_failure {
-        let _ = writeln!(text, "  first failure: {}", failure.status_text);
-    }
-    text
+    text + &layers.first_failure()
 }

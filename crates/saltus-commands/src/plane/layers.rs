@@ -1,100 +1,65 @@
 //! The layers of a plane: one number per pixel and quantity.
 
-use super::{Cell, Loss, Plane};
+use super::{Cell, Loss};
 use crate::failure::Failure;
+use crate::quantities as q;
 use saltus::orbits::MotionKind;
-use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// The end of a pixel: a motion, or the reason why there is none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What became of a pixel, by the code it has in the layer `status`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Status {
-    Motion(MotionKind),
-    Lost(Ending),
-}
-
-/// Ways in which a pixel has no motion.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Ending {
+    Periodic,
+    QuasiPeriodic,
+    Chaotic,
+    NotPeriodic,
+    Undecided,
     NoModel,
     Chattering,
     NotFinite,
     TooManySteps,
     /// Anything else that ends a run.
-    Other,
+    Ended,
 }
 
-impl Ending {
-    const ALL: [Self; 5] = [
+impl Status {
+    pub(crate) const ALL: [Self; 10] = [
+        Self::Periodic,
+        Self::QuasiPeriodic,
+        Self::Chaotic,
+        Self::NotPeriodic,
+        Self::Undecided,
         Self::NoModel,
         Self::Chattering,
         Self::NotFinite,
         Self::TooManySteps,
-        Self::Other,
+        Self::Ended,
     ];
 
-    fn name(self) -> &'static str {
-        match self {
-            Self::NoModel => "no-model",
-            Self::Chattering => "chattering",
-            Self::NotFinite => "not-finite",
-            Self::TooManySteps => "too-many-steps",
-            Self::Other => "ended",
-        }
-    }
-
-    fn of(loss: &Loss) -> Self {
-        let named = |ending: &Self| ending.name() == loss.status;
-        Self::ALL.into_iter().find(named).unwrap_or(Self::Other)
-    }
-}
-
-impl Status {
-    /// The names of all, each at the place of its [`Self::code`].
-    pub(super) fn names() -> impl Iterator<Item = &'static str> {
-        let endings = Ending::ALL.map(Ending::name);
-        MotionKind::NAMES.into_iter().chain(endings)
-    }
-
-    /// Number in the layer `status`.
-    pub(super) fn code(self) -> u8 {
-        match self {
-            Self::Motion(kind) => kind.code() as u8,
-            Self::Lost(ending) => MotionKind::NAMES.len() as u8 + ending as u8,
-        }
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Self::Motion(kind) => kind.name(),
-            Self::Lost(ending) => ending.name(),
-        }
+    pub(crate) fn name(self) -> &'static str {
+        q::PIXEL_STATUS.words[self as usize]
     }
 
     fn of(cell: &Cell) -> Self {
-        match &cell.attractor {
-            Ok(motion) => Self::Motion(motion.kind),
-            Err(loss) => Self::Lost(Ending::of(loss)),
-        }
+        let name = match &cell.attractor {
+            Ok(motion) => motion.kind.name(),
+            Err(loss) => &loss.status,
+        };
+        let named = |status: &&Self| status.name() == name;
+        Self::ALL.iter().find(named).copied().unwrap_or(Self::Ended)
     }
 
     /// Whether there is a motion, periodic or not.
     pub(crate) fn is_motion(self) -> bool {
-        matches!(self, Self::Motion(_))
-    }
-
-    /// Forcing periods of a cycle, 0 where there is none.
-    pub(super) fn period(self) -> u16 {
-        match self {
-            Self::Motion(MotionKind::Periodic(n)) => n as u16,
-            _ => 0,
-        }
+        self <= Self::Undecided
     }
 }
 
 /// All layers, row by row as the grid; NaN where there is no motion.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Layers {
+    /// 0 where not periodic.
+    pub(crate) period: Vec<u16>,
     pub(crate) status: Vec<Status>,
     /// Jumper by jumper.
     pub(crate) contact_ratio: Vec<Vec<f64>>,
@@ -109,38 +74,17 @@ pub(crate) struct Layers {
     pub(crate) first_loss: Option<(usize, Loss)>,
 }
 
-/// The first pixel without a motion.
-#[derive(Serialize)]
-pub(crate) struct FirstFailure {
-    x: f64,
-    y: f64,
-    status: String,
-    pub(crate) status_text: String,
-}
-
-impl FirstFailure {
-    pub(crate) fn of(plane: &Plane, layers: &Layers) -> Option<Self> {
-        let (pixel, loss) = layers.first_loss.as_ref()?;
-        let (x, y) = plane.grid.at(*pixel);
-        Some(Self {
-            x,
-            y,
-            status: loss.status.clone(),
-            status_text: loss.reason.clone(),
-        })
-    }
-}
-
 /// How often each status and each period occurs.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug)]
 pub(crate) struct Tally {
-    status: BTreeMap<&'static str, usize>,
+    /// By the code of the status.
+    pub(crate) status: [usize; Status::ALL.len()],
     /// Fewest and most forcing periods over which a chaotic motion was seen not to settle.
-    pub(crate) chaotic_over: Option<Span>,
+    pub(crate) chaotic_over: Option<[u32; 2]>,
     pub(crate) periods: Vec<PeriodShare>,
 }
 
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug)]
 pub(crate) struct PeriodShare {
     pub(crate) period: u16,
     pub(crate) pixels: usize,
@@ -148,7 +92,7 @@ pub(crate) struct PeriodShare {
 }
 
 /// The range of a layer, where there is a motion.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Span {
     pub(crate) min: f64,
     pub(crate) max: f64,
@@ -170,6 +114,8 @@ impl Layers {
         if let (None, Err(loss)) = (&self.first_loss, &cell.attractor) {
             self.first_loss = Some((self.status.len(), loss.clone()));
         }
+        let period = motion.and_then(|m| period(m.kind));
+        self.period.push(period.unwrap_or(0) as u16);
         self.status.push(Status::of(cell));
         self.peak_acceleration
             .push(motion.map_or(f64::NAN, |m| m.peak_acceleration));
@@ -188,13 +134,12 @@ impl Layers {
     }
 
     pub(crate) fn tally(&self) -> Tally {
-        let mut status = BTreeMap::new();
-        for one in &self.status {
-            *status.entry(one.name()).or_default() += 1;
+        let mut status = [0; Status::ALL.len()];
+        for &one in &self.status {
+            status[one as usize] += 1;
         }
         let mut periods: BTreeMap<u16, usize> = BTreeMap::new();
-        let all = self.status.iter().map(|status| status.period());
-        for period in all.filter(|&period| period > 0) {
+        for &period in self.period.iter().filter(|&&period| period > 0) {
             *periods.entry(period).or_default() += 1;
         }
         let share = |(period, pixels): (u16, usize)| PeriodShare {
@@ -202,23 +147,35 @@ impl Layers {
             pixels,
             share: pixels as f64 / self.status.len() as f64,
         };
-        let chaotic = self.chaotic_periods();
-        let chaotic = chaotic.into_iter().filter(|&periods| periods > 0);
+        let chaotic = || self.chaotic_periods().filter(|&periods| periods > 0);
+        let least = chaotic().min();
         Tally {
             status,
-            chaotic_over: span(&chaotic.map(f64::from).collect::<Vec<_>>()),
+            chaotic_over: least.zip(chaotic().max()).map(<[u32; 2]>::from),
             periods: periods.into_iter().map(share).collect(),
         }
     }
 
     /// Forcing periods over which each chaotic motion was seen not to settle; 0 where the motion is not chaotic.
-    pub(crate) fn chaotic_periods(&self) -> Vec<u32> {
+    pub(crate) fn chaotic_periods(&self) -> impl Iterator<Item = u32> {
         let pixels = self.status.iter().zip(&self.periods_run);
-        let chaotic = |(&status, &run): (&Status, &u32)| match status {
-            Status::Motion(MotionKind::Chaotic) => run,
+        pixels.map(|(&status, &run)| match status {
+            Status::Chaotic => run,
             _ => 0,
-        };
-        pixels.map(chaotic).collect()
+        })
+    }
+
+    /// Range of the largest acceleration of the floor.
+    pub(crate) fn acceleration(&self) -> Option<Span> {
+        span(&self.peak_acceleration)
+    }
+
+    /// Why the first pixel without a motion has none, for people; empty if all have one.
+    pub(crate) fn first_failure(&self) -> String {
+        let first = self.first_loss.as_ref();
+        first.map_or(String::new(), |(_, loss)| {
+            format!("  first failure: {}\n", loss.reason)
+        })
     }
 
     /// Nothing is worth keeping if there is no motion anywhere.
@@ -245,33 +202,47 @@ impl Layers {
 impl Tally {
     /// Pixels that are undecided or failed.
     pub(crate) fn without_attractor(&self) -> usize {
-        let known =
-            |name: &&str| MotionKind::NAMES.contains(name) && *name != MotionKind::Undecided.name();
-        let rest = self.status.iter().filter(|(name, _)| !known(name));
+        let rest = Status::ALL.iter().zip(self.status);
+        let rest = rest.filter(|(status, _)| **status >= Status::Undecided);
         rest.map(|(_, pixels)| pixels).sum()
+    }
+
+    /// How long the chaotic motions were watched, in words; empty if there are none.
+    pub(crate) fn chaotic_for(&self) -> String {
+        let over = self.chaotic_over;
+        over.map_or(String::new(), |[least, _]| {
+            format!(" for {least} periods and more")
+        })
     }
 
     /// For people: one line per kind of motion.
     pub(crate) fn text(&self) -> String {
-        let all: usize = self.status.values().sum();
+        let all: usize = self.status.iter().sum();
         let percent = |pixels: usize| 100.0 * pixels as f64 / all as f64;
         let mut lines: Vec<String> = self
             .periods
             .iter()
             .map(|p| format!("  {:>5.1} %  {}T", percent(p.pixels), p.period))
             .collect();
-        // the first name, of cycles, is there by their periods
-        let others = Status::names().skip(1).filter_map(|name| {
-            let pixels = self.status.get(name)?;
-            let over = self.chaotic_over;
-            let over = over.filter(|_| name == MotionKind::Chaotic.name());
-            let over = over.map_or(String::new(), |span| {
-                format!(" for {} periods and more", span.min)
-            });
-            Some(format!("  {:>5.1} %  {name}{over}", percent(*pixels)))
+        let others = Status::ALL.iter().zip(self.status);
+        let others = others.filter(|&(&status, pixels)| status != Status::Periodic && pixels > 0);
+        let others = others.map(|(&status, pixels)| {
+            let over = match status {
+                Status::Chaotic => self.chaotic_for(),
+                _ => String::new(),
+            };
+            format!("  {:>5.1} %  {}{over}", percent(pixels), status.name())
         });
         lines.extend(others);
         lines.join("\n") + "\n"
+    }
+}
+
+/// Forcing periods of a cycle.
+pub(crate) fn period(kind: MotionKind) -> Option<u32> {
+    match kind {
+        MotionKind::Periodic(n) => Some(n),
+        _ => None,
     }
 }
 

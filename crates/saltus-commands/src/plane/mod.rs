@@ -1,7 +1,7 @@
 //! What `saltus map` and `saltus basins` share: a plane of pixels, each the attractor of one start.
 
 mod cell;
-mod dataset;
+mod data;
 mod figure;
 mod layers;
 
@@ -12,15 +12,15 @@ use saltus::model::{Model, ModelError};
 use saltus::study::{Control, Grid, Search};
 use saltus_config::{AxisTable, Parameter, Study};
 use saltus_results::Axis;
-use serde::Serialize;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use crate::words::capitalized;
 pub(super) use cell::{Cell, Loss};
-pub(super) use dataset::dataset;
+pub(super) use data::data;
 pub(super) use figure::layers_figure;
-pub(super) use layers::{FirstFailure, Layers, Span, Status, Tally, span};
+pub(super) use layers::{Layers, Status, Tally, period};
+use layers::{Span, span};
 
 /// The plane that is asked about.
 pub(super) struct Plane {
@@ -36,39 +36,12 @@ pub(super) struct PlaneAxis {
     pub(super) table: AxisTable,
 }
 
-/// An axis in JSON.
-#[derive(Serialize)]
-pub(super) struct AxisReport {
-    parameter: String,
-    unit: &'static str,
-    label: String,
-    from: f64,
-    to: f64,
-    count: usize,
-}
-
 impl PlaneAxis {
     fn new(table: &AxisTable) -> Result<Self, Failure> {
         Ok(Self {
             parameter: Parameter::parse(&table.parameter)?,
             table: table.clone(),
         })
-    }
-
-    /// Name of a variable: `jumper_damping_ratio`.
-    pub(super) fn variable(&self) -> String {
-        self.parameter.key().replace('.', "_")
-    }
-
-    pub(super) fn report(&self) -> AxisReport {
-        AxisReport {
-            parameter: self.parameter.key(),
-            unit: self.parameter.unit(),
-            label: self.parameter.label(),
-            from: self.table.from(),
-            to: self.table.to(),
-            count: self.table.count(),
-        }
     }
 }
 
@@ -111,9 +84,15 @@ impl Plane {
         )
     }
 
-    /// Size in words.
-    pub(super) fn size(&self) -> String {
-        format!("{} x {} pixels", self.grid.x.len(), self.grid.y.len())
+    /// Its axes and its size in words.
+    pub(super) fn text(&self) -> String {
+        let range = |axis: &PlaneAxis| {
+            let (label, table) = (axis.parameter.label(), &axis.table);
+            format!("{label} from {} to {}", table.from(), table.to())
+        };
+        let (x, y) = (range(&self.x), range(&self.y));
+        let (columns, rows) = (self.grid.x.len(), self.grid.y.len());
+        format!("{x}, {y}: {columns} x {rows} pixels")
     }
 }
 

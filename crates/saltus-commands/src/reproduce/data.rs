@@ -229,9 +229,9 @@ fn branches(set: Dataset, results: &Results) -> Dataset {
     }
     Listed::new(set, "branches", "branch_point", &rows)
         .column("frequency_ratio", q::BRANCH_RATIO, |r| r.ratio)
-        .whole("branch", q::BRANCH_NUMBER, -1, |r| Some(r.branch))
+        .whole("branch", q::BRANCH, -1, |r| Some(r.branch))
         .column("origin", q::BRANCH_ORIGIN, |r| r.origin.to_owned())
-        .whole("point", q::BRANCH_POINT, -1, |r| Some(r.point))
+        .whole("point", q::PAPER_BRANCH_POINT, -1, |r| Some(r.point))
         .column("damping_ratio", q::BRANCH_DAMPING, |r| r.damping)
         .word("stable", q::BRANCH_STABLE, |r| yes(r.stable))
         .whole("place", q::BRANCH_PLACE, -1, |r| Some(r.place))

@@ -230,34 +230,57 @@ fn branches_are_points_one_after_the_other() {
         (table.from, table.to, table.cloud) = (0.15, 0.35, 2);
         table.second = None;
     });
-    let (set, tables) = answer(&Request::Continue { origin: None }, &study);
-    let table = &tables["branches.csv"];
-    let places = places(table, "place");
-    let starts = places.iter().scan(0, |points, &place| {
-        *points += usize::from(place == 0);
-        Some(*points - 1)
-    });
-    let (z, value) = (array(&set, "z"), array(&set, "jumper_damping_ratio"));
-    let (branch, real) = (array(&set, "branch"), array(&set, "multiplier_real"));
-    for (row, point) in starts.enumerate() {
-        let of = |name| column(table, name)[row];
-        assert_same(z.at(&[point, places[row], 0]), of("z"));
-        assert_same(value.at(&[point]), of("jumper.damping_ratio"));
-        assert_same(branch.at(&[point]), of("branch"));
-        assert_same(real.at(&[point, 0]), of("multiplier_re"));
-    }
-    // the branch of Fig. 2a doubles at 0.1893
-    let special = &tables["special_points.csv"];
-    let Values::Text(labels) = array(&set, "special_label").values else {
-        panic!("labels are texts");
+    let set = data(&Request::Continue { origin: None }, &study);
+    let (z, period) = (array(&set, "z"), array(&set, "period"));
+    let texts = |name| match array(&set, name).values {
+        Values::Text(texts) => texts.clone(),
+        other => panic!("{other:?}"),
     };
-    assert!(labels.contains(&"PD1".to_owned()), "{labels:?}");
-    assert_eq!(labels.len(), special.rows());
-    let at = array(&set, "special_jumper_damping_ratio");
-    assert_same(at.at(&[0]), column(special, "jumper.damping_ratio")[0]);
-    // period 1 has no second place
-    assert_eq!(z.lengths[1], 2);
+    let branch = array(&set, "branch");
+    let last = |array: &Array| array.at(&[z.lengths[0] - 1]);
+    let places = (0..z.lengths[0]).map(|point| period.at(&[point]) as usize);
+    assert_eq!(
+        ["branches", "ends"].map(|name| rows(&set, name)),
+        [places.sum(), last(&branch) as usize + 1]
+    );
+    // the branch of Fig. 2a doubles at 0.1893, and period 1 has no second place
+    assert_eq!(texts("special_label"), ["PD1"]);
+    assert_eq!(texts("branch_origin"), ["", "PD1"]);
+    assert!(texts("special_remark")[0].is_empty() && !texts("special_sequence")[0].is_empty());
+    assert_eq!((z.lengths[1], last(&period)), (2, 2.0));
     assert!(z.at(&[0, 0, 0]).is_finite() && z.at(&[0, 1, 0]).is_nan());
+    let (x, modes) = (array(&set, "special_x"), array(&set, "special_modes"));
+    assert_eq!(x.lengths[..2], [1, 2]);
+    for state in 0..x.lengths[2] {
+        assert!(x.at(&[0, 0, state]).is_finite() && x.at(&[0, 1, state]).is_nan());
+    }
+    assert!(modes.at(&[0, 0, 0]) >= 0.0 && modes.at(&[0, 1, 0]) < 0.0);
+}
+
+#[test]
+fn basins_have_a_row_for_each_sample_and_one_for_a_motion_without() {
+    let study = study(|study| {
+        two_people(study);
+        let table = study.basins.as_mut().unwrap();
+        (table.transient, table.record, table.exponent) = (60, 8, 0);
+        table.x.count = Some(3);
+        table.y.count = Some(3);
+    });
+    let set = data(&Request::Basins { matched: false }, &study);
+    let (period, z) = (array(&set, "attractor_period"), array(&set, "attractor_z"));
+    let periods = (0..period.lengths[0]).map(|place| period.at(&[place]) as usize);
+    let periods: Vec<usize> = periods.collect();
+    assert!(periods.contains(&0), "{periods:?}");
+    let samples = periods.iter().map(|&period| 2 * period.max(1));
+    assert_eq!(rows(&set, "attractors"), samples.sum::<usize>());
+    for (place, &period) in periods.iter().enumerate() {
+        for sample in 0..z.lengths[2] {
+            assert_eq!(z.at(&[place, 1, sample]).is_nan(), sample >= period);
+        }
+    }
+    let (status, pixels) = (array(&set, "status"), array(&set, "outcome_pixels"));
+    assert_eq!(status.lengths, [3, 3]);
+    assert_eq!(pixels.lengths, [10]);
 }
 
 #[test]
