@@ -19,7 +19,7 @@ fn text(what: &str, request: &Request, tables: &str) -> String {
          --json, and {name}.json in --out; null: no value):\n"
     );
     for quantity in request.quantities() {
-        text += &entry(quantity);
+        text += &entry(&quantity);
     }
     text + "Tables:\n" + tables
 }

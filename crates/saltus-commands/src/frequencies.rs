@@ -9,20 +9,6 @@ use saltus_config::Study;
 use saltus_results::{Dataset, Quantity, Table};
 use std::f64::consts::TAU;
 
-/// All that it has, in the order of the help.
-pub(crate) const QUANTITIES: &[Quantity] = &[
-    q::PLATE_MODE,
-    q::PLATE_FREQUENCY,
-    q::OCCUPIED_MODE,
-    q::OCCUPIED_FREQUENCY,
-    q::IN_PLANE_MODE,
-    q::IN_PLANE_FREQUENCY,
-    q::JUMPER,
-    q::FREE_FREQUENCY,
-    q::BODY_FREQUENCY,
-    q::BASE,
-];
-
 /// All in Hz, lists ascending.
 struct Frequencies {
     /// Transverse, empty plate.

@@ -5,6 +5,7 @@ use crate::context::Context;
 use crate::continuation::Labelled;
 use crate::failure::Failure;
 use crate::pieces::{Divided, Share};
+use crate::quantities as q;
 use crate::shard::Shard;
 use crate::store::Store;
 use crate::{
@@ -87,19 +88,63 @@ impl Request {
 
     /// What its answers may have, in the order of the help. Parameters that change are variables beside these, named after
     /// their keys.
-    pub fn quantities(&self) -> &'static [Quantity] {
-        match self {
-            Self::Frequencies => frequencies::QUANTITIES,
-            Self::Simulate => simulate::QUANTITIES,
-            Self::Orbit => orbit::QUANTITIES,
-            Self::Lyapunov => lyapunov::QUANTITIES,
-            Self::Sweep
-            | Self::Map
-            | Self::Basins { .. }
-            | Self::Continue { .. }
-            | Self::Attractors
-            | Self::Reproduce { .. } => &[],
-        }
+    pub fn quantities(&self) -> Vec<Quantity> {
+        const STATUS: &[Quantity] = &[q::STATUS, q::STATUS_TEXT];
+        const PERSON: &[Quantity] = &[q::JUMPER, q::Z, q::V, q::CONTACT_RATIO];
+        const LOADS: &[Quantity] = &[q::CONTACT_RATIO, q::PEAK_REACTION];
+        const PEAKS: &[Quantity] = &[q::PEAK_REACTION, q::PEAK_ACCELERATION];
+        const NAMED: &[Quantity] = &[q::PERIOD, q::CONFIDENCE];
+        let lists: &[&[Quantity]] = match self {
+            Self::Frequencies => &[q::FREQUENCIES, &[q::JUMPER]],
+            Self::Simulate => &[
+                STATUS,
+                &[q::PERIODS_RUN, q::PEAK_REACTION],
+                q::RUN,
+                q::BASE_MOTION,
+                q::SECTION,
+                q::HISTORY,
+            ],
+            Self::Sweep => &[q::SWEEP, NAMED, STATUS, PERSON, q::EXPONENTS],
+            Self::Map => &[
+                q::PLANE,
+                PEAKS,
+                &[
+                    q::CONTACT_RATIO,
+                    q::PERIODS_RUN,
+                    q::EXPONENT_ERROR,
+                    q::JUMPER,
+                ],
+            ],
+            Self::Basins { .. } => return [q::BASINS, &Self::Map.quantities()].concat(),
+            Self::Orbit => &[
+                &[q::PERIOD],
+                q::ORBIT,
+                q::ORBITS,
+                LOADS,
+                q::BASE_MOTION,
+                q::SECTION,
+                q::HISTORY,
+            ],
+            Self::Continue { .. } => &[q::BRANCHES, &[q::PERIOD], q::ORBITS, q::SECTION],
+            Self::Lyapunov => &[
+                STATUS,
+                NAMED,
+                &[q::STATES],
+                q::EXPONENTS,
+                q::SPECTRUM,
+                q::BASE_MOTION,
+            ],
+            Self::Attractors => &[
+                q::ATTRACTORS,
+                &[q::PERIOD, q::PERIODS_RUN, q::EXPONENT_ERROR],
+                PERSON,
+                PEAKS,
+            ],
+            Self::Reproduce { .. } => {
+                &[q::PAPER, q::SWEEP, q::EXPONENTS, &[q::Z, q::BASE_FREQUENCY]]
+            }
+        };
+        lists.concat()
     }
 
     /// The study that this question is about, given the one at hand: a branch that begins at an orbit of

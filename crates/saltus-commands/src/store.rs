@@ -3,9 +3,7 @@
 use crate::context::Context;
 use crate::failure::Failure;
 use saltus_config::Study;
-use saltus_results::{
-    CsvTable, Dataset, Figure, Manifest, ResultFolder, ResultsError, Value, csv, shown,
-};
+use saltus_results::{Dataset, Figure, Manifest, ResultFolder, ResultsError, csv, shown};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -13,9 +11,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Pixels of a PNG per unit of the SVG.
 const PNG_SCALE: f32 = 2.0;
-
-/// Rows of a table, one after the other.
-pub type Rows<'a> = &'a mut dyn Iterator<Item = Vec<Value>>;
 
 /// Fills a text.
 pub type Fill<'a> = &'a mut dyn FnMut(&mut dyn Write) -> io::Result<()>;
@@ -27,18 +22,6 @@ pub trait Store {
     /// # Errors
     /// [`Failure`] if it cannot be kept.
     fn put_text(&mut self, name: &str, fill: Fill) -> Result<(), Failure>;
-
-    /// A table; `settings` stand above the header.
-    ///
-    /// # Errors
-    /// [`Failure`] if it cannot be kept.
-    fn put_table(
-        &mut self,
-        name: &str,
-        settings: &[(&str, &str)],
-        header: &[String],
-        rows: Rows,
-    ) -> Result<(), Failure>;
 
     /// A figure; its name has no ending.
     ///
@@ -59,25 +42,9 @@ impl dyn Store + '_ {
         self.put_text(name, &mut |file| file.write_all(text.as_bytes()))
     }
 
-    /// Adds a table; `settings` stand above the header.
-    pub(crate) fn table(
-        &mut self,
-        name: &str,
-        settings: &[(&str, &str)],
-        header: &[String],
-        rows: impl IntoIterator<Item = Vec<Value>>,
-    ) -> Result<(), Failure> {
-        self.put_table(name, settings, header, &mut rows.into_iter())
-    }
-
     /// Adds a figure.
     pub(crate) fn figure(&mut self, name: &str, figure: &Figure) -> Result<(), Failure> {
         self.put_figure(name, figure)
-    }
-
-    /// Adds a dataset.
-    pub(crate) fn dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), Failure> {
-        self.put_dataset(name, dataset)
     }
 }
 
@@ -150,24 +117,6 @@ fn refuse_answer(dir: &Path) -> Result<(), Failure> {
 impl Store for Folder {
     fn put_text(&mut self, name: &str, fill: Fill) -> Result<(), Failure> {
         Ok(self.inner.write_with(name, |file| fill(file))?)
-    }
-
-    fn put_table(
-        &mut self,
-        name: &str,
-        settings: &[(&str, &str)],
-        header: &[String],
-        rows: Rows,
-    ) -> Result<(), Failure> {
-        let header: Vec<&str> = header.iter().map(String::as_str).collect();
-        let fill = |file: &mut dyn Write| {
-            let mut table = CsvTable::new(file, settings, &header).map_err(plain)?;
-            for row in &mut *rows {
-                table.row(row).map_err(plain)?;
-            }
-            table.finish().map_err(plain).map(drop)
-        };
-        Ok(self.inner.write_with(name, fill)?)
     }
 
     fn put_figure(&mut self, name: &str, figure: &Figure) -> Result<(), Failure> {

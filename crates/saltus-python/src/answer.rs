@@ -9,11 +9,11 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 use saltus_commands::{
     Answer as Answered, Context, Destination, Failure, Fill, Folder, Found, Keep, Place, Request,
-    Rows, Store, Told, about, bibtex, citations,
+    Store, Told, about, bibtex, citations,
 };
 use saltus_config::Study;
 use saltus_results::{
-    Attribute, Cells, Column, Columns, Dataset, Figure as Drawing, NamedColumn, Values, Variable,
+    Attribute, Cells, Dataset, Figure as Drawing, NamedColumn, Values, Variable,
     write_file_atomically,
 };
 use std::borrow::Cow;
@@ -271,8 +271,7 @@ impl Figure {
 /// The parts of an answer, kept.
 #[derive(Default)]
 struct Memory {
-    tables: Vec<(String, Columns)>,
-    views: Vec<(String, Vec<NamedColumn>)>,
+    tables: Vec<(String, Vec<NamedColumn>)>,
     figures: Vec<(String, Drawing)>,
     datasets: Vec<(String, Dataset)>,
     texts: Vec<(String, Vec<u8>)>,
@@ -284,9 +283,6 @@ impl Memory {
         let (datasets, texts) = (PyDict::new(py), PyDict::new(py));
         for (name, columns) in self.tables {
             tables.set_item(name, table(py, columns)?)?;
-        }
-        for (name, columns) in self.views {
-            tables.set_item(name, view(py, columns)?)?;
         }
         for (name, drawing) in self.figures {
             figures.set_item(name, Figure { drawing })?;
@@ -310,22 +306,6 @@ impl Store for Memory {
         Ok(())
     }
 
-    fn put_table(
-        &mut self,
-        name: &str,
-        settings: &[(&str, &str)],
-        header: &[String],
-        rows: Rows,
-    ) -> Result<(), Failure> {
-        let header: Vec<&str> = header.iter().map(String::as_str).collect();
-        let mut columns = Columns::new(settings, &header);
-        for row in rows {
-            columns.row(row)?;
-        }
-        self.tables.push((name.to_owned(), columns));
-        Ok(())
-    }
-
     fn put_figure(&mut self, name: &str, figure: &Drawing) -> Result<(), Failure> {
         self.figures.push((name.to_owned(), figure.clone()));
         Ok(())
@@ -334,7 +314,7 @@ impl Store for Memory {
     fn put_dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), Failure> {
         for table in dataset.tables().iter().filter(|table| table.is_file()) {
             let columns = table.to_columns(&dataset)?;
-            self.views.push((format!("{}.csv", table.name()), columns));
+            self.tables.push((format!("{}.csv", table.name()), columns));
         }
         self.datasets.push((name.to_owned(), dataset));
         Ok(())
@@ -342,27 +322,7 @@ impl Store for Memory {
 }
 
 /// Notes on the columns, and the columns.
-fn table<'py>(py: Python<'py>, columns: Columns) -> PyResult<Bound<'py, PyTuple>> {
-    let notes = PyDict::new(py);
-    for (name, note) in columns.settings() {
-        notes.set_item(name, note)?;
-    }
-    let arrays = PyDict::new(py);
-    for (name, column) in columns.into_columns() {
-        let array = match column {
-            Column::F64(values) => values.into_pyarray(py).into_any(),
-            Column::I64(values) => values.into_pyarray(py).into_any(),
-            Column::Flags(values) => PyList::new(py, values)?.into_any(),
-            Column::Text(values) => PyList::new(py, values)?.into_any(),
-            other => return Err(error::of_computation(format!("{other:?}"))),
-        };
-        arrays.set_item(name, array)?;
-    }
-    PyTuple::new(py, [notes, arrays])
-}
-
-/// Notes on the columns, and the columns.
-fn view<'py>(py: Python<'py>, columns: Vec<NamedColumn>) -> PyResult<Bound<'py, PyTuple>> {
+fn table<'py>(py: Python<'py>, columns: Vec<NamedColumn>) -> PyResult<Bound<'py, PyTuple>> {
     let (notes, arrays) = (PyDict::new(py), PyDict::new(py));
     for column in columns {
         let array = match column.cells {

@@ -12,12 +12,9 @@
 //! - [`pieces`]: finished pieces of long work, kept so that it can be taken up again;
 //! - [`quantity`]: name, meaning and unit of a number, said once;
 //! - [`table`]: what of a dataset stands row by row, written by [`mod@csv`] and, as documents, by [`json`];
-//! - [`cells`]: CSV row by row, and Markdown tables;
-//! - [`columns`]: the same rows as typed columns in memory;
+//! - [`markdown`]: tables for people;
 //! - [`page`]: a self-contained HTML page that shows figures, tables and facts without a network.
 
-pub mod cells;
-pub mod columns;
 pub mod compare;
 pub mod csv;
 pub mod dataset;
@@ -26,6 +23,7 @@ pub mod figure;
 pub mod folder;
 pub mod json;
 pub mod manifest;
+pub mod markdown;
 pub mod ordinary;
 pub mod page;
 pub mod pieces;
@@ -34,8 +32,6 @@ pub mod shown;
 pub mod staging;
 pub mod table;
 
-pub use cells::{CsvTable, MarkdownTable, Value};
-pub use columns::{Column, Columns};
 pub use compare::{Comparison, compare};
 pub use csv::csv;
 pub use dataset::{Attribute, Dataset, Values, Variable};
@@ -47,6 +43,7 @@ pub use figure::{
 pub use folder::{ResultFolder, write_file_atomically};
 pub use json::Document;
 pub use manifest::{FileRecord, Manifest, Problem};
+pub use markdown::MarkdownTable;
 pub use page::{Fact, FigureBlock, Image, Page, Verdict};
 pub use pieces::{Damage, PieceStore, Seal, Survey};
 pub use quantity::Quantity;

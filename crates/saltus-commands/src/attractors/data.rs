@@ -66,7 +66,10 @@ const COUNTS: [Of<Counted, u64>; 4] = [
     }),
 ];
 
-const BODIES: [(Quantity, fn(&Counted) -> &[f64]); 2] = [
+/// Numbers of each person.
+type Bodies = fn(&Counted) -> &[f64];
+
+const BODIES: [(Quantity, Bodies); 2] = [
     (q::CONTACT_RATIO, |one| &one.entry.attractor.contact_ratio),
     (q::PEAK_REACTION, |one| &one.entry.attractor.peak_reaction),
 ];
@@ -160,14 +163,15 @@ fn transients(set: Dataset, found: &Found) -> Dataset {
         q::TRANSIENT_SHARE_LOW,
         q::TRANSIENT_SHARE_HIGH,
     ];
-    let fractions = all.iter().map(|(_, one)| one.fraction).collect();
+    let fractions = all.iter().map(|(_, one)| one.fraction);
+    let fractions: Vec<Fraction> = fractions.collect();
     let ends = |(row, one): &(&Row, &Transient)| row.attractors()[one.to].identity + 1;
     let table = Table::new("transients", &over).titled("value", found.value_name("transient_"));
     let table = without("transient_", table, &["starts", "attractor", "motions"]);
     let table = without("transient_", table, &["ended", "periods", "lifetime"]);
     let table = without("transient_", table, &["lifetime_low", "lifetime_high"]);
     let table = without("transient_", table, &["share", "share_low", "share_high"]);
-    shares(set, &over, named, fractions)
+    shares(set, &over, named, &fractions)
         .variable(q::TRANSIENT_ATTRACTOR.over(&over, wholes(all.iter().map(ends))))
         .variable(q::TRANSIENT_MOTIONS.over(&over, count(|one| one.1.survival.motions.into())))
         .variable(q::TRANSIENT_ENDED.over(&over, count(|one| one.1.survival.ended.into())))
@@ -182,7 +186,7 @@ fn transients(set: Dataset, found: &Found) -> Dataset {
 fn rows(set: Dataset, found: &Found) -> Dataset {
     let value = found.parameter.as_ref().map(name);
     let over: Vec<&str> = value.as_deref().into_iter().collect();
-    let fractions = |of: fn(&Census) -> Fraction| {
+    let fractions = |of: fn(&Census) -> Fraction| -> Vec<Fraction> {
         let rows = found.all.rows.iter().map(|row| row.census.as_ref());
         rows.map(|census| census.map_or_else(|_| Fraction::default(), of))
             .collect()
@@ -194,8 +198,8 @@ fn rows(set: Dataset, found: &Found) -> Dataset {
         q::UNDECIDED_HIGH,
     ];
     let lost = [q::LOST_STARTS, q::LOST, q::LOST_LOW, q::LOST_HIGH];
-    let set = shares(set, &over, undecided, fractions(|census| census.undecided));
-    let set = shares(set, &over, lost, fractions(|census| census.lost));
+    let set = shares(set, &over, undecided, &fractions(|census| census.undecided));
+    let set = shares(set, &over, lost, &fractions(|census| census.lost));
     let words = |loss: Loss| (loss.status, loss.reason);
     let failures = found.all.rows.iter().map(first_failure);
     let failures = failures.map(|loss| loss.map(words).unwrap_or_default());
@@ -215,7 +219,7 @@ fn rows(set: Dataset, found: &Found) -> Dataset {
 pub(super) type Of<T, N> = (Quantity, fn(&T) -> N);
 
 /// Counts of first states, their shares and the ends of their intervals.
-fn shares(set: Dataset, over: &[&str], named: [Quantity; 4], all: Vec<Fraction>) -> Dataset {
+fn shares(set: Dataset, over: &[&str], named: [Quantity; 4], all: &[Fraction]) -> Dataset {
     let [starts, shares, low, high] = named;
     let part = |part: usize| -> Vec<f64> { all.iter().map(|&one| share(one)[part]).collect() };
     set.variable(starts.over(over, wholes(all.iter().map(|one| one.count))))

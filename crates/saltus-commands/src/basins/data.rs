@@ -77,8 +77,8 @@ fn bodies(set: Dataset, found: &Found) -> Dataset {
         .ragged("sample")
         .variable(q::BASIN_Z.over(&places, section(|motion| &motion.z)))
         .variable(q::BASIN_V.over(&places, section(|motion| &motion.v)));
-    let set = ends(set, q::BASIN_Z_RANGE, |range| range.0);
-    ends(set, q::BASIN_V_RANGE, |range| range.1)
+    let set = ends(set, [q::BASIN_Z_MIN, q::BASIN_Z_MAX], |range| range.0);
+    ends(set, [q::BASIN_V_MIN, q::BASIN_V_MAX], |range| range.1)
 }
 
 /// In files a row for each sample, and one without a sample for a motion that is not periodic; in documents a row for

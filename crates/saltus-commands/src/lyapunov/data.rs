@@ -7,47 +7,7 @@ use crate::status;
 use saltus::orbits::Exponent;
 use saltus::physics::ContactLaw;
 use saltus_config::Inertia;
-use saltus_results::{Dataset, Quantity, Table};
-
-/// All that it has, in the order of the help.
-pub(crate) const QUANTITIES: &[Quantity] = &[
-    q::STATUS,
-    q::STATUS_TEXT,
-    q::NATURE,
-    q::NATURE_TEXT,
-    q::PERIOD,
-    q::CONFIDENCE,
-    q::EXPONENTS_FROM,
-    q::EXPONENT_NUMBER,
-    q::EXPONENT,
-    q::EXPONENT_ERROR,
-    q::EXPONENT_LOW,
-    q::EXPONENT_HIGH,
-    q::EXPONENT_PER_SECOND,
-    q::EXPONENT_PER_SECOND_ERROR,
-    q::EXPONENT_SUM,
-    q::EXPONENT_SUM_ERROR,
-    q::EXPONENT_SUM_LOW,
-    q::EXPONENT_SUM_HIGH,
-    q::EXPONENT_SUM_PER_SECOND,
-    q::EXPONENT_SUM_PER_SECOND_ERROR,
-    q::DIVERGENCE,
-    q::DIVERGENCE_MUST_AGREE,
-    q::DIVERGENCE_DIFFERENCE,
-    q::DIVERGENCE_TEXT,
-    q::KAPLAN_YORKE,
-    q::KAPLAN_YORKE_ERROR,
-    q::RECORD_PERIODS,
-    q::RUNNING_EXPONENT,
-    q::RUNNING_ERROR,
-    q::STATES,
-    q::TRANSIENT,
-    q::PERIODS_ASKED,
-    q::REPLICAS,
-    q::PERIODS_MEASURED,
-    q::BASE_FREQUENCY,
-    q::FORCING_PERIOD,
-];
+use saltus_results::{Dataset, Table};
 
 pub(super) fn data(found: &Found) -> Dataset {
     let (growth, how, kind) = (&found.growth, &found.how, found.verdict.kind);

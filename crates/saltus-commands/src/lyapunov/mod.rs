@@ -5,8 +5,6 @@ mod figures;
 mod summary;
 mod words;
 
-pub(crate) use data::QUANTITIES;
-
 use crate::answer::{Answer, Take};
 use crate::context::Context;
 use crate::failure::Failure;

@@ -4,47 +4,7 @@ use super::{Found, search};
 use crate::data::{about, base, motion, whole};
 use crate::quantities as q;
 use saltus::orbits::Multiplier;
-use saltus_results::{Dataset, Quantity, Table};
-
-/// All that it has, in the order of the help.
-pub(crate) const QUANTITIES: &[Quantity] = &[
-    q::STABILITY,
-    q::SEQUENCE,
-    q::PERIOD,
-    q::PERIOD_ASKED,
-    q::OUTSIDE,
-    q::IN_FAMILY,
-    q::RESIDUAL,
-    q::ITERATIONS,
-    q::SEGMENTS,
-    q::BASE_FREQUENCY,
-    q::FORCING_PERIOD,
-    q::POINT,
-    q::JUMPER,
-    q::TERM,
-    q::TERM_M,
-    q::TERM_N,
-    q::Z,
-    q::V,
-    q::PHASE,
-    q::W,
-    q::CONTACT_RATIO,
-    q::PEAK_REACTION,
-    q::TOUCH_DOWN_PHASE,
-    q::MULTIPLIER,
-    q::MULTIPLIER_REAL,
-    q::MULTIPLIER_IMAGINARY,
-    q::MULTIPLIER_MODULUS,
-    q::MULTIPLIER_ERROR,
-    q::HISTORY_TIME,
-    q::HISTORY_Z,
-    q::HISTORY_V,
-    q::HISTORY_PRF,
-    q::HISTORY_FLOOR,
-    q::SWITCH_TIME,
-    q::SWITCH_JUMPER,
-    q::SWITCH_KIND,
-];
+use saltus_results::{Dataset, Table};
 
 pub(super) fn data(found: &Found) -> Dataset {
     let (orbit, seen) = (&found.orbit, &found.portrait);

@@ -4,8 +4,6 @@ mod data;
 mod figures;
 mod summary;
 
-pub(crate) use data::QUANTITIES;
-
 use crate::answer::{Answer, Take};
 use crate::context::Context;
 use crate::failure::Failure;

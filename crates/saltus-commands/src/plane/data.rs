@@ -10,8 +10,8 @@ use saltus_results::{Dataset, Quantity, Table};
 pub(crate) fn data(title: &str, study: &Study, plane: &Plane, layers: &Layers) -> Dataset {
     let run = layers.periods_run.iter().map(|&periods| u64::from(periods));
     let set = values(about(title, study), plane, layers);
-    let set = axis(set, "x_", &plane.x, q::X_AXIS);
-    let set = axis(set, "y_", &plane.y, q::Y_AXIS)
+    let set = axis(set, "x_", &plane.x, [q::X_FROM, q::X_TO, q::X_COUNT]);
+    let set = axis(set, "y_", &plane.y, [q::Y_FROM, q::Y_TO, q::Y_COUNT])
         .variable(q::PLANE_TRANSIENT.is(whole(plane.search.transient)))
         .variable(q::PLANE_RECORD.is(whole(plane.search.record)))
         .variable(q::PIXELS.is(whole(plane.grid.len())))
@@ -116,17 +116,22 @@ fn spans(set: Dataset, layers: &Layers) -> Dataset {
             .variable(quantities[1].over(over, of(|span| span.max)))
     };
     let peaks = std::slice::from_ref(&layers.peak_acceleration);
-    let set = each(set, q::PEAK_ACCELERATION_RANGE, &[], peaks);
+    let set = each(
+        set,
+        [q::PEAK_ACCELERATION_MIN, q::PEAK_ACCELERATION_MAX],
+        &[],
+        peaks,
+    );
     let set = set.coordinate(q::JUMPER.numbered(0, people));
     let set = each(
         set,
-        q::CONTACT_RATIO_RANGE,
+        [q::CONTACT_RATIO_MIN, q::CONTACT_RATIO_MAX],
         &["jumper"],
         &layers.contact_ratio,
     );
     let set = each(
         set,
-        q::PEAK_REACTION_RANGE,
+        [q::PEAK_REACTION_MIN, q::PEAK_REACTION_MAX],
         &["jumper"],
         &layers.peak_reaction,
     );

@@ -53,7 +53,8 @@ fn fig2(results: &Results) -> Dataset {
     let hertz: Vec<f64> = panels.iter().map(|panel| panel.hertz).collect();
     let tags = texts(TAGS.into_iter().take(panels.len()));
     let damping = damping(&values);
-    let over = ["panel", "pass", &damping.name().to_owned(), "sample"];
+    let value = damping.name().to_owned();
+    let over = ["panel", "pass", &value, "sample"];
     let set = about("Fig. 2 of Dias & Del Prado", &Study::paper())
         .header("coordinates", "base_frequency direction start_z start_v")
         .coordinate(q::PANEL.along(tags))

@@ -1,7 +1,7 @@
 //! The findings as text, Markdown and JSON. No times and no machine: equal input gives equal bits.
 
 use saltus_paper::{Bound, Edge};
-use saltus_results::{MarkdownTable, Value};
+use saltus_results::MarkdownTable;
 use serde::Serialize;
 
 use super::Results;
@@ -173,13 +173,11 @@ impl Report {
     pub(super) fn markdown(&self) -> String {
         let mut facts = MarkdownTable::new(&["", "Claim", "Ours", "Verdict", "Reading"]);
         for f in &self.facts {
-            facts = facts.row([f.id, &f.claim, &f.value, f.verdict, &f.reading].map(Value::from));
+            facts = facts.row(&[f.id, &f.claim, &f.value, f.verdict, &f.reading]);
         }
         let mut misprints = MarkdownTable::new(&["Where", "Printed", "Used here", "Effect"]);
         for m in &self.misprints {
-            misprints = misprints.row(
-                [&m.place, &m.printed, &m.used, &m.effect].map(|text| Value::from(text.as_str())),
-            );
+            misprints = misprints.row(&[&m.place, &m.printed, &m.used, &m.effect]);
         }
         let quick = if self.quick {
             format!("{QUICK}\n\n")

@@ -7,47 +7,6 @@ use crate::status;
 use saltus::model::EnergyBalance;
 use saltus_results::{Dataset, Quantity, Table};
 
-/// All that it has, in the order of the help.
-pub(crate) const QUANTITIES: &[Quantity] = &[
-    q::STATUS,
-    q::STATUS_TEXT,
-    q::PERIODS_RUN,
-    q::STEPS,
-    q::BASE_FREQUENCY,
-    q::FORCING_PERIOD,
-    q::SECTION_PERIOD,
-    q::SECTION_TIME,
-    q::JUMPER,
-    q::TERM,
-    q::TERM_M,
-    q::TERM_N,
-    q::Z,
-    q::V,
-    q::PHASE,
-    q::W,
-    q::PERIOD_CONTACT_RATIO,
-    q::MEAN_CONTACT_RATIO,
-    q::PEAK_REACTION,
-    q::ENERGY_BASE,
-    q::ENERGY_GRAVITY,
-    q::ENERGY_PLATE,
-    q::ENERGY_LEGS,
-    q::ENERGY_DAMPERS,
-    q::ENERGY_STORED,
-    q::ENERGY_RESIDUAL,
-    q::ENERGY_MAX_RESIDUAL,
-    q::ENERGY_MAX_TURNOVER,
-    q::ENERGY_MAX_RELATIVE_RESIDUAL,
-    q::HISTORY_TIME,
-    q::HISTORY_Z,
-    q::HISTORY_V,
-    q::HISTORY_PRF,
-    q::HISTORY_FLOOR,
-    q::SWITCH_TIME,
-    q::SWITCH_JUMPER,
-    q::SWITCH_KIND,
-];
-
 pub(super) fn data(found: &Found) -> Dataset {
     let trajectory = &found.trajectory;
     let (end, omega) = (&trajectory.end, found.model.scales().omega);

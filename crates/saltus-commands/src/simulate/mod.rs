@@ -5,8 +5,6 @@ mod figures;
 mod flights;
 mod summary;
 
-pub(crate) use data::QUANTITIES;
-
 use crate::answer::{Answer, Take};
 use crate::context::Context;
 use crate::failure::Failure;

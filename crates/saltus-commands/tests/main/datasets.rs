@@ -1,46 +1,9 @@
-//! The arrays of an answer and its tables are the same numbers, to the bit. Neither goes through a file here: that
-//! those keep every bit is tested where they are written.
+//! Data of answers: whole, every quantity in the help, and the same numbers in arrays, tables and documents. What
+//! writers make of them is tested where those are.
 
-use saltus_commands::{Context, Failure, Fill, Request, Rows, Store};
+use saltus_commands::{Context, Request};
 use saltus_config::{Direction, Inertia, Law, Study};
-use saltus_results::{Cells, Column, Columns, Dataset, Figure, Values};
-use std::collections::BTreeMap;
-
-/// Keeps what an answer hands over.
-#[derive(Default)]
-struct Memory {
-    tables: BTreeMap<String, Columns>,
-    datasets: Vec<(String, Dataset)>,
-}
-
-impl Store for Memory {
-    fn put_text(&mut self, _: &str, _: Fill) -> Result<(), Failure> {
-        Ok(())
-    }
-
-    fn put_table(
-        &mut self,
-        name: &str,
-        settings: &[(&str, &str)],
-        header: &[String],
-        rows: Rows,
-    ) -> Result<(), Failure> {
-        let header: Vec<&str> = header.iter().map(String::as_str).collect();
-        let mut table = Columns::new(settings, &header);
-        rows.for_each(|row| table.row(row).unwrap());
-        self.tables.insert(name.to_owned(), table);
-        Ok(())
-    }
-
-    fn put_figure(&mut self, _: &str, _: &Figure) -> Result<(), Failure> {
-        Ok(())
-    }
-
-    fn put_dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), Failure> {
-        self.datasets.push((name.to_owned(), dataset));
-        Ok(())
-    }
-}
+use saltus_results::{Cells, Dataset, Document, Values};
 
 /// The paper's study, with the condensed plate.
 fn study(change: impl FnOnce(&mut Study)) -> Study {
@@ -57,27 +20,50 @@ fn two_people(study: &mut Study) {
     study.jumper.push(other);
 }
 
-/// The dataset of an answer, which can be a file, and the tables beside it.
-fn answer(request: &Request, study: &Study) -> (Dataset, BTreeMap<String, Columns>) {
-    let context = Context::default();
-    let mut memory = Memory::default();
-    let answer = request.ask(study, &context).unwrap();
-    answer
-        .fill(&mut memory, &request.dataset(), answer.data())
-        .unwrap();
-    let [(name, dataset)] = &memory.datasets[..] else {
-        panic!("{} datasets", memory.datasets.len());
-    };
-    assert_eq!(*name, format!("{}.nc", request.name()));
-    assert!(dataset.clone().to_bytes().unwrap().starts_with(b"\x89HDF"));
-    (dataset.clone(), memory.tables)
-}
-
-/// The arrays of an answer.
+/// The data of an answer, which must be whole and described.
 fn data(request: &Request, study: &Study) -> Dataset {
     let set = request.ask(study, &Context::default()).unwrap().data();
-    set.check().unwrap();
+    assert!(set.clone().to_bytes().unwrap().starts_with(b"\x89HDF"));
+    let document = serde_json::to_value(Document::new(&set)).unwrap();
+    assert!(document.as_object().unwrap().len() > 3);
+    all_are_in_the_help(request, &set);
     set
+}
+
+/// Each variable is a quantity of the command, that of one of several jumpers, or the values of a parameter.
+fn all_are_in_the_help(request: &Request, set: &Dataset) {
+    let known: Vec<&str> = request.quantities().iter().map(|q| q.name).collect();
+    let told = |name: &str| {
+        let number = |c: char| c.is_ascii_digit() || c == '_';
+        known.contains(&name) || known.contains(&name.trim_end_matches(number))
+    };
+    for variable in set.variables() {
+        let name = variable.name();
+        let of_parameter = variable.attributes().iter().any(|a| a.0 == "study_key");
+        assert!(
+            told(name) || of_parameter,
+            "`{name}` is not in the help of `{}`",
+            request.name()
+        );
+        assert!(!variable.long_name_text().is_empty(), "{name}");
+    }
+}
+
+/// A column of the file of a table.
+fn cells(set: &Dataset, table: &str, title: &str) -> Cells {
+    let mut tables = set.tables().iter();
+    let found = tables.find(|known| known.is_file() && known.name() == table);
+    let columns = found.expect(table).to_columns(set).unwrap();
+    let column = columns.into_iter().find(|column| column.title == title);
+    column.expect(title).cells
+}
+
+fn column(set: &Dataset, table: &str, title: &str) -> Vec<f64> {
+    match cells(set, table, title) {
+        Cells::F64(values) => values,
+        Cells::I64(values) => values.into_iter().map(|value| value as f64).collect(),
+        other => panic!("{other:?}"),
+    }
 }
 
 /// Rows in the file of a table.
@@ -88,6 +74,7 @@ fn rows(set: &Dataset, name: &str) -> usize {
     match &columns[0].cells {
         Cells::F64(cells) => cells.len(),
         Cells::I64(cells) => cells.len(),
+        Cells::Text(cells) => cells.len(),
         other => panic!("{other:?}"),
     }
 }
@@ -123,20 +110,6 @@ fn array<'a>(dataset: &'a Dataset, name: &str) -> Array<'a> {
         lengths: variable.dimensions().iter().map(length).collect(),
         values: variable.values(),
     }
-}
-
-fn column(table: &Columns, name: &str) -> Vec<f64> {
-    match table.get(name).expect(name) {
-        Column::F64(values) => values.clone(),
-        Column::I64(values) => values.iter().map(|&value| value as f64).collect(),
-        _ => panic!("{name} has no numbers"),
-    }
-}
-
-/// What numbers of rows are as places of arrays.
-fn places(table: &Columns, name: &str) -> Vec<usize> {
-    let values = column(table, name).into_iter();
-    values.map(|value| value as usize).collect()
 }
 
 fn assert_same(found: f64, expected: f64) {
@@ -189,8 +162,8 @@ fn a_motion_of_nobody_one_or_two_is_one_of_arrays() {
             study.base.frequency = Some(2.5);
             study.simulate.periods = 3;
         });
-        let (set, tables) = answer(&Request::Simulate, &study);
-        let (section, z) = (&tables["section.csv"], array(&set, "z"));
+        let set = data(&Request::Simulate, &study);
+        let z = array(&set, "z");
         assert_eq!(z.lengths, [3, people]);
         for jumper in 0..people {
             let name = if people == 1 {
@@ -198,7 +171,7 @@ fn a_motion_of_nobody_one_or_two_is_one_of_arrays() {
             } else {
                 format!("z_{jumper}")
             };
-            for (period, &expected) in column(section, &name).iter().enumerate() {
+            for (period, &expected) in column(&set, "section", &name).iter().enumerate() {
                 assert_same(z.at(&[period, jumper]), expected);
             }
         }
@@ -206,18 +179,14 @@ fn a_motion_of_nobody_one_or_two_is_one_of_arrays() {
         assert_eq!(w.lengths, [3, 4]);
         for term in 0..4 {
             let name = format!("w_{}_{}", m.at(&[term]), n.at(&[term]));
-            assert_same(w.at(&[2, term]), column(section, &name)[2]);
+            assert_same(w.at(&[2, term]), column(&set, "section", &name)[2]);
         }
-        let (history, floor) = (&tables["history.csv"], array(&set, "history_floor"));
-        assert_eq!(floor.lengths, [history.rows(), people]);
-        assert_eq!(
-            array(&set, "switch_time").lengths,
-            [tables["switches.csv"].rows()]
-        );
-        let energy = &tables["energy.csv"];
+        let floor = array(&set, "history_floor");
+        assert_eq!(floor.lengths, [rows(&set, "history"), people]);
+        assert_eq!(array(&set, "switch_time").lengths, [rows(&set, "switches")]);
         assert_same(
             array(&set, "energy_base").at(&[1]),
-            column(energy, "base")[1],
+            column(&set, "energy", "base")[1],
         );
     }
 }
@@ -332,19 +301,20 @@ fn an_orbit_its_exponents_and_the_frequencies_are_arrays_too() {
         (study.lyapunov.transient, study.lyapunov.periods) = (20, 30);
         study.lyapunov.exponents = 2;
     });
-    let (set, tables) = answer(&Request::Orbit, &study);
-    let modulus = column(&tables["multipliers.csv"], "modulus");
+    let set = data(&Request::Orbit, &study);
+    let modulus = column(&set, "multipliers", "modulus");
     assert_same(array(&set, "multiplier_modulus").at(&[9]), modulus[9]);
     assert_same(
         array(&set, "z").at(&[0, 0]),
-        column(&tables["section.csv"], "z")[0],
+        column(&set, "section", "z")[0],
     );
-    let (set, tables) = answer(&Request::Lyapunov, &study);
-    let (last, running) = (&tables["convergence.csv"], array(&set, "running_exponent"));
-    for row in 0..last.rows() {
-        assert_same(running.at(&[row, 1]), column(last, "exponent_2")[row]);
+    let set = data(&Request::Lyapunov, &study);
+    let running = array(&set, "running_exponent");
+    let last = column(&set, "convergence", "exponent_2");
+    for (row, &expected) in last.iter().enumerate() {
+        assert_same(running.at(&[row, 1]), expected);
     }
-    let (set, _) = answer(&Request::Frequencies, &study);
+    let set = data(&Request::Frequencies, &study);
     // DP section 3 prints 2.297 Hz
     assert!((array(&set, "plate").at(&[0]) - 2.297).abs() < 5e-4);
     assert!(array(&set, "body").lengths.is_empty());

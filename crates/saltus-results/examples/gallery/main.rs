@@ -5,9 +5,9 @@
 mod dynamics;
 
 use saltus_results::{
-    Axis, Class, ClassMap, Cloud, Colour, ColourScale, CsvTable, Curves, Dataset, Fact, Figure,
-    FigureBlock, Grid, History, Image, MarkdownTable, Page, Panel, Portrait, ResultFolder,
-    ValueMap, Variable, Verdict,
+    Axis, Class, ClassMap, Cloud, Colour, ColourScale, Curves, Dataset, Fact, Figure, FigureBlock,
+    Grid, History, Image, MarkdownTable, Page, Panel, Portrait, ResultFolder, Table, ValueMap,
+    Variable, Verdict, csv,
 };
 use std::path::Path;
 use std::time::Instant;
@@ -45,15 +45,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         folder.write(&svg_file, &svg)?;
         folder.write(&png_file, &png)?;
     }
-    let mut table = CsvTable::new(Vec::new(), &[("seed", "none")], &["step (s)", "error (m)"])?;
-    table.row([0.1.into(), 1e-5.into()])?;
-    folder.write("errors.csv", table.finish()?)?;
+    let errors = error_table();
+    folder.write("errors.csv", csv(&errors, &errors.tables()[0], Vec::new())?)?;
     folder.write_dataset("map.nc", dataset())?;
     let facts = facts();
     let markdown = facts
         .iter()
         .fold(MarkdownTable::new(&["Fact", "Verdict"]), |table, fact| {
-            table.row([fact.name.as_str().into(), fact.verdict.words().into()])
+            table.row(&[&fact.name, fact.verdict.words()])
         });
     folder.write("facts.md", markdown.to_string())?;
     let page = page
@@ -500,6 +499,22 @@ fn maps() -> Vec<Panel> {
         acceleration.into(),
         error.into(),
     ]
+}
+
+/// One row of numbers, as a table.
+fn error_table() -> Dataset {
+    Dataset::new("Errors by step")
+        .coordinate(
+            Variable::coordinate("step", vec![0.1])
+                .long_name("Step")
+                .units("s"),
+        )
+        .variable(
+            Variable::new("error", &["step"], vec![1e-5])
+                .long_name("Error")
+                .units("m"),
+        )
+        .table(Table::new("errors", &["step"]).columns(&["step", "error"]))
 }
 
 fn dataset() -> Dataset {

@@ -2,7 +2,8 @@
 
 use saltus_results::folder::{INDEX, MARKER};
 use saltus_results::{
-    CsvTable, Manifest, ResultFolder, ResultsError, Staging, write_file_atomically,
+    Dataset, Manifest, ResultFolder, ResultsError, Staging, Table, Variable, csv,
+    write_file_atomically,
 };
 use std::fs;
 use std::path::Path;
@@ -159,9 +160,10 @@ fn a_full_disk_is_noticed_and_a_device_stays_a_device() {
     assert!(!fs::metadata(full).unwrap().is_file());
 
     let device = fs::OpenOptions::new().write(true).open(full).unwrap();
-    let mut table = CsvTable::new(device, &[], &["x"]).unwrap();
-    table.row([1.0.into()]).unwrap();
-    let error = table.finish().unwrap_err();
+    let dataset = Dataset::new("full")
+        .coordinate(Variable::coordinate("x", vec![1.0]))
+        .table(Table::new("rows", &["x"]).columns(&["x"]));
+    let error = csv(&dataset, &dataset.tables()[0], device).unwrap_err();
     assert!(error.to_string().contains("no space left"), "{error}");
 }
 
