@@ -33,25 +33,25 @@ pub(crate) enum Command {
     /// Integrate the motion and look at it once per forcing period
     Simulate(SimulateArgs),
     /// Long-term motion while one parameter changes
-    #[command(after_help = help::SWEEP)]
+    #[command(after_help = help::sweep())]
     Sweep(DividedArgs),
     /// Long-term motion at each point of a plane of two parameters
-    #[command(after_help = help::MAP)]
+    #[command(after_help = help::map())]
     Map(DividedArgs),
     /// Which long-term motion each first state leads to
-    #[command(after_help = help::BASINS)]
+    #[command(after_help = help::basins())]
     Basins(BasinsArgs),
     /// The periodic orbit near the long-term motion, stable or not
     #[command(after_help = help::orbit())]
     Orbit(WorkArgs),
     /// Branches of periodic orbits while one parameter changes, with their bifurcations
-    #[command(after_help = help::CONTINUE)]
+    #[command(after_help = help::continuation())]
     Continue(ContinueArgs),
     /// Lyapunov exponents of the long-term motion, with their errors
     #[command(after_help = help::lyapunov())]
     Lyapunov(WorkArgs),
     /// All coexisting long-term motions, their basins and hysteresis while one parameter changes
-    #[command(after_help = help::ATTRACTORS)]
+    #[command(after_help = help::attractors())]
     Attractors(WorkArgs),
     /// Works that a result rests on, as BibTeX
     #[command(after_help = help::CITE)]
