@@ -18,7 +18,7 @@
 pub mod columns;
 pub mod compare;
 pub mod dataset;
-pub mod error;
+mod error;
 pub mod figure;
 pub mod folder;
 pub mod manifest;
