@@ -17,7 +17,7 @@ pub(crate) fn print_json(document: &impl Serialize) -> Result<(), Ending> {
     print_with(|stdout| stream_json(stdout, document))
 }
 
-/// One document, or a text for people, or nothing, as asked.
+/// Prints an answer: one document, a text for people, or nothing, as asked.
 pub(crate) fn tell(json: bool, quiet: bool, answer: &dyn Answer) -> Result<(), Ending> {
     match (json, quiet) {
         (true, _) => print_with(|stdout| answer.document(stdout)),

@@ -16,7 +16,7 @@ use super::members::Members;
 use crate::error::{of_computation, of_definition};
 use crate::running::{Progress, run as run_beside};
 
-/// How orbits are integrated: what `find_orbit` takes if not told otherwise.
+/// Method for orbits: the default of `find_orbit`.
 const ORBITS: Method = Method::Taylor {
     tolerance: 1e-14,
     order: 22,
@@ -35,11 +35,11 @@ pub(crate) struct Exponents {
     /// Kaplan-Yorke dimension of each member and its standard error; NaN where it is not known.
     dimension: Py<PyArray1<f64>>,
     dimension_error: Py<PyArray1<f64>>,
-    /// Word and sentence for how each trajectory ended.
+    /// Ending of each trajectory, as a word and a sentence.
     status: Vec<(String, String)>,
 }
 
-/// What is known of a member when its run is over.
+/// A member whose run is over.
 struct Ended {
     period: f64,
     climbed: Climbed,

@@ -25,7 +25,7 @@ pub(crate) fn keys(panels: &[Panel]) -> Vec<Key> {
                 if let (Some(sum), Some(more)) = (&mut known.tally, key.tally) {
                     sum.cells += more.cells;
                     sum.total += more.total;
-                    // A share of cells some of which belong to a map without classes would say little.
+                    // Where some cells belong to a map without shares, a share of all of them would say little.
                     sum.share &= more.share;
                 }
             }

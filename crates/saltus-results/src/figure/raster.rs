@@ -45,7 +45,7 @@ fn refused(reason: &impl ToString) -> ResultsError {
     }
 }
 
-/// What kuva can draw well, as pixels.
+/// The scene as pixels, by kuva.
 pub(crate) fn pixmap(scene: &Scene, scale: f32) -> Result<Pixmap, ResultsError> {
     let bytes = RasterBackend::new()
         .with_scale(scale)
