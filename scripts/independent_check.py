@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The paper's case once more, by other means: the numbers in crates/saltus/tests/independent.rs.
+"""The paper's case once more, by other means: the numbers in crates/saltus/tests/main/independent.rs.
 
 Shares nothing with saltus but the equations of docs/model.md: tensors by Gauss quadrature of the
 strains in NumPy instead of closed forms, SciPy's DOP853 with events instead of Taylor series.
@@ -84,7 +84,7 @@ eta, omega_h = gravity * mass / stiffness, np.sqrt(stiffness / mass)
 
 
 def section(zeta, ratio, periods):
-    """z/eta and z'/(eta omega_h) after so many periods."""
+    """z/eta and z'/(eta omega_h) after the given number of periods."""
     omega = ratio * occupied[1]
     period = 2 * np.pi / omega
     damper = 2 * zeta * np.sqrt(stiffness * mass)

@@ -15,15 +15,15 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
 
-# The order of a file that a person wrote; a schema's keys come by name.
+# The order of tables in a file that a person wrote; a schema's keys come by name.
 EXAMPLE = ROOT / "crates" / "saltus-config" / "src" / "template.toml"
 
-# Tables whose last name would not do.
+# Names of classes where the last part of the table's name would not do.
 CLASSES = {"": "Study", "plate.modes": "ModeLists"} | {
     f"{plane}.{axis}": "Axis" for plane in ("map", "basins") for axis in "xy"
 }
 
-# These say in one place what each place says of itself only.
+# Descriptions of tables that stand in several places, each of which describes itself only.
 ABOUT = {
     "Axis": "One axis of a plane: a key of the study and the values it takes.",
     "ModeLists": "The terms of the displacement fields, one by one.",
@@ -40,12 +40,12 @@ class Key:
 
     @property
     def description(self) -> str:
-        """What it means, with its unit in brackets."""
+        """Its meaning, with its unit in brackets."""
         return str(self.schema["description"])
 
     @property
     def words(self) -> dict[str, str]:
-        """The words allowed and what each means; empty if it is no choice."""
+        """The words allowed, each with its meaning; empty if it is no choice."""
         choices = self.schema.get("oneOf", [])
         return {choice["const"]: choice["description"] for choice in choices}
 

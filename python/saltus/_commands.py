@@ -1,4 +1,4 @@
-"""The questions: each takes a study, in which stands what is asked, and gives a result."""
+"""The questions: each takes a study, whose tables say what is asked, and gives a result."""
 
 from __future__ import annotations
 
@@ -170,7 +170,7 @@ def basins(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Result:
-    """Which long-term motion each first state leads to.
+    """Find the long-term motion that each first state leads to.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What can go wrong, as exceptions."""
+"""Exceptions of saltus."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = [
 
 
 class SaltusError(Exception):
-    """Anything that saltus refuses or cannot do; the message says what would be right."""
+    """Base of all errors of saltus; the message says what would be right."""
 
 
 class StudyError(SaltusError, ValueError):
@@ -52,7 +52,7 @@ class DefinitionError(SaltusError, ValueError):
 
 
 class FormulaError(DefinitionError, TypeError):
-    """What was asked of an expression and is no formula; the message says what to write instead."""
+    """An operation on an expression that makes no formula; the message says what to write instead."""
 
 
 class ComputationError(SaltusError, ArithmeticError):

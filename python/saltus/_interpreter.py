@@ -1,4 +1,4 @@
-"""The interpreter that saltus lives in, and its end.
+"""The interpreter that saltus runs in, and its end.
 
 The native module belongs to a process, not to an interpreter: in a subinterpreter, as mod_wsgi and
 ``concurrent.interpreters`` make them, it would share all with the main one, and end its work too.

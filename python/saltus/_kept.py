@@ -1,4 +1,4 @@
-"""Results that were kept in folders: cited, and asked again."""
+"""Saved results: their citations, and the same question asked again."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ __all__ = ["Rerun", "cite", "rerun"]
 
 @dataclass(frozen=True)
 class Rerun:
-    """How a kept result compares with the same question asked again."""
+    """Comparison of a saved result with the same question asked again."""
 
     identical: bool
     """Whether all files are the same to the bit."""
     summary: str
-    """In words: what differs and by how much, and which reasons are known."""
+    """The differences in words, with their sizes and the reasons that are known."""
     report: dict[str, Any] = field(repr=False)
     """The JSON document that ``saltus rerun --json`` prints; ``saltus help rerun`` explains each key."""
 
@@ -32,7 +32,7 @@ class Rerun:
 
 
 def cite(result: str | os.PathLike[str]) -> str:
-    """The works that a kept result rests on, as BibTeX, each below what it was used for.
+    """The works that a saved result rests on, as BibTeX, each below what it was used for.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def rerun(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Rerun:
-    """Compute a kept result again and compare, file by file.
+    """Compute a saved result again and compare, file by file.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""How far long work is: a bar in a terminal or notebook, or a function of the user's own."""
+"""Progress of long work: a bar in a terminal or notebook, or a function of the user's own."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ DELAY = 1.0
 
 
 class ProgressFunction(Protocol):
-    """What is called some ten times a second while saltus computes."""
+    """A function that is called some ten times a second while saltus computes."""
 
     def __call__(self, what: str, done: int, total: int | None, /) -> object:
-        """Take what is being done, how much of it is done, and how much there is, if known."""
+        """Take the name of the work, the number of its parts done, and their total, if known."""
 
 
-#: ``None``: a bar if somebody looks at the standard error output; ``True``: always; ``False``: never.
+#: ``None``: a bar if standard error is a terminal or a notebook; ``True``: always; ``False``: never.
 Progress = bool | None | ProgressFunction
 
 
 @contextmanager
 def watched(progress: Progress) -> Iterator[ProgressFunction | None]:
-    """Give the function to be called, and close what it shows in the end."""
+    """Give the function to be called, and close its bar in the end."""
     if progress is None:
         progress = _somebody_looks()
     if callable(progress):

@@ -1,4 +1,4 @@
-"""What was found: arrays, tables, figures, a document, and the folder that the program writes."""
+"""Results: arrays, tables, figures, a document, and the folder that the program writes."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ if TYPE_CHECKING:
 
 __all__ = ["Figure", "Result", "Table", "Variable"]
 
-#: Pixels of a PNG per unit of the SVG: what the program writes.
+#: Pixels of a PNG per unit of the SVG, as the program writes it.
 SCALE = 2.0
 
 
 @dataclass(frozen=True, eq=False)
 class Variable:
-    """An array with the names of its axes and what it is."""
+    """An array with the names of its axes and its meaning."""
 
     name: str
     dims: tuple[str, ...]
@@ -37,11 +37,11 @@ class Variable:
     attrs: Mapping[str, Any]
     """``long_name``, ``units`` (as UDUNITS spells them) and others."""
     meanings: Mapping[int, str]
-    """What the whole numbers of `values` mean, if they stand for words."""
+    """The words that the whole numbers of `values` stand for, if they do."""
     fill: int | None
     """The whole number that stands for "no value", if there is one."""
     coordinate: bool
-    """Whether it tells where along a dimension the others are."""
+    """Whether it holds the places of the others along a dimension."""
 
     @property
     def words(self) -> NDArray[np.object_]:
@@ -56,7 +56,7 @@ class Table(Mapping[str, NDArray[Any]]):
 
     def __init__(self, notes: Mapping[str, str], columns: Mapping[str, Any]) -> None:
         self.notes = dict(notes)
-        """What the columns mean, with units."""
+        """Meanings of the columns, with units."""
         self._columns = {name: _column(values) for name, values in columns.items()}
 
     def __getitem__(self, name: str) -> NDArray[Any]:
@@ -130,7 +130,7 @@ class Figure:
 
 
 class Result(Mapping[str, NDArray[Any]]):
-    """What a question found.
+    """Answer of a question.
 
     As a mapping it holds the arrays by name: ``result["z"]``, with the axes and units that
     ``result.variables["z"]`` tells. In a notebook it shows its summary and its first figure.
@@ -138,9 +138,9 @@ class Result(Mapping[str, NDArray[Any]]):
     Attributes
     ----------
     command : str
-        What was asked.
+        The command that was asked.
     study : Study
-        What it was asked about, whole.
+        The study it was asked about, every default written out.
     """
 
     def __init__(self, answer: _native.Answer) -> None:
@@ -150,7 +150,7 @@ class Result(Mapping[str, NDArray[Any]]):
 
     @property
     def summary(self) -> str:
-        """What was found, in words."""
+        """The answer in words."""
         return self._answer.summary().rstrip()
 
     @cached_property
@@ -160,12 +160,12 @@ class Result(Mapping[str, NDArray[Any]]):
         return report
 
     def cite(self) -> str:
-        """Return the works that this rests on as BibTeX, each below what it was used for."""
+        """Return the works that this result rests on as BibTeX, each below what it was used for."""
         return self._answer.cite()
 
     @property
     def shortfall(self) -> str | None:
-        """Why this is not all that was asked for, as of a motion that ended early; else None."""
+        """Reason why a part of the answer is missing, as where a motion ended early; else None."""
         return self._answer.shortfall()
 
     @cached_property
@@ -205,7 +205,7 @@ class Result(Mapping[str, NDArray[Any]]):
         return len(self.variables)
 
     def to_xarray(self) -> xarray.Dataset:
-        """Return the dataset that the program writes as NetCDF, with all that it says."""
+        """Return the dataset that the program writes as NetCDF, with all its attributes."""
         import xarray
 
         def array(variable: Variable) -> xarray.Variable:
@@ -223,7 +223,7 @@ class Result(Mapping[str, NDArray[Any]]):
             return xarray.Variable(variable.dims, values, attrs, encoding)
 
         attrs = dict(self.attrs)
-        # by this attribute a file says which of its arrays are coordinates too
+        # this attribute of a file names the further coordinates among its arrays
         more = attrs.pop("coordinates", "").split()
         return xarray.Dataset(
             {name: array(variable) for name, variable in self.variables.items()}, attrs=attrs
@@ -298,7 +298,7 @@ def _column(values: Any) -> NDArray[Any]:
 
 
 def _values(values: Any, shape: list[int]) -> NDArray[Any]:
-    """Texts come as a list."""
+    """Values as an array: texts come as a list."""
     if isinstance(values, np.ndarray):
         return values
     return np.array(values, dtype=object).reshape(shape)

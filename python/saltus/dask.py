@@ -2,8 +2,8 @@
 
 The work is cut into pieces, the same as those of ``saltus map --shard i/n``. Workers make them in
 any order; a piece that was lost with its worker is made again. The result has the same bits as on
-one machine: each piece says of itself whether it is whole and which work it belongs to, and one that
-does not is refused by its number.
+one machine: each piece carries its checksum and that of its work, and a piece of other work, or a
+damaged one, is refused with its number.
 
 Needs ``distributed``, and saltus of the same version on every worker.
 """
@@ -48,14 +48,14 @@ def map(  # noqa: A001 (the word of the program)
     ----------
     study : Study or path
     client : distributed.Client
-        Whose workers compute. Each task takes one thread; give workers one thread per core.
+        Client of the cluster. Each task takes one thread; give workers one thread per core.
     tasks : int, optional
-        Into how many tasks the work is put; some 8 per thread of the cluster by default, and never
+        Number of tasks that the work is put into; some 8 per thread of the cluster by default, and never
         more than it has pieces.
     out : path, optional
         Folder to write on this machine, as :func:`saltus.map` does.
     progress : bool or callable, optional
-        As for :func:`saltus.map`; what is counted are pieces.
+        As for :func:`saltus.map`; it counts pieces.
 
     Returns
     -------
@@ -79,7 +79,7 @@ def basins(
     out: str | os.PathLike[str] | None = None,
     progress: Progress = None,
 ) -> Result:
-    """Which long-term motion each first state leads to; see :func:`saltus.basins` and :func:`map`."""
+    """Find the long-term motion of each first state; see :func:`saltus.basins` and :func:`map`."""
     request = {"command": "basins", "match": bool(match)}
     return _run(request, study, client, tasks, out, progress)
 
@@ -117,7 +117,7 @@ def _run(
             if client.status == "closed":
                 raise OSError("its client is closed")
             shares = _shares(pieces, _tasks(client, tasks))
-            # what is pure may be taken from an earlier run: a broken piece must not
+            # results of pure tasks may be taken from an earlier run: a broken piece must not
             made_there = (client.submit(_compute, asked, about, share, pure=False) for share in shares)
             futures.extend(made_there)
         with watched(progress) as told:
@@ -149,7 +149,7 @@ def _completed(futures: Sequence[Future[Any]]) -> Iterator[list[tuple[int, bytes
 
 @contextmanager
 def _cluster() -> Iterator[None]:
-    """Say so if the cluster is lost; what saltus raises on a worker is raised as it is."""
+    """Raise ComputationError if the cluster is lost; an error of saltus is raised as it is."""
     from distributed import CancelledError
     from distributed.scheduler import KilledWorker
 
@@ -173,7 +173,7 @@ def _tasks(client: Client, tasks: int | None) -> int:
 
 
 def _shares(pieces: int, tasks: int) -> list[list[int]]:
-    """Every so many-th piece: neighbours in a plane cost alike, so costs even out."""
+    """Shares of every n-th piece, n being their number: neighbours cost alike, so costs even out."""
     tasks = min(tasks, pieces)
     return [list(range(first, pieces, tasks)) for first in range(tasks)]
 

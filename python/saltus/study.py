@@ -1,4 +1,4 @@
-"""The study: everything a study file says, as Python objects with the same names and units."""
+"""The study: all keys of a study file, as Python objects with the same names and units."""
 
 from __future__ import annotations
 
@@ -39,18 +39,18 @@ __all__ = ["Study", "StudyLike", "as_study"]
 
 @dataclasses.dataclass(frozen=True, kw_only=True, repr=False)
 class Study:
-    """A plate, the people on it, the base that shakes it, and what is asked about them.
+    """A plate, the people on it, the base that shakes it, and the questions about them.
 
-    What is given is checked at once, as the program checks a study file; what is left out has the
-    default that its description tells. All of it can then be read off: a study in hand is valid,
-    whole and never changes.
+    Tables are checked at once, as the program checks a study file; keys that are left out have the
+    default of their description. All of them can then be read: a study in hand is valid, whole and never
+    changes.
 
     Any array-like serves where a list of numbers is needed.
 
     Raises
     ------
     StudyError
-        If something is wrong; its ``key`` says what, its ``help`` what would be right.
+        If a key is wrong: its ``key`` names it, its ``help`` says what would be right.
 
     Examples
     --------
@@ -77,7 +77,7 @@ class Study:
     attractors: Attractors | None = None
 
     def __post_init__(self) -> None:
-        """Check what is given and fill in what is not."""
+        """Check the tables given and fill in the others."""
         self._adopt(_native.resolve(_json(self), []))
 
     @classmethod
@@ -120,16 +120,16 @@ class Study:
 
     @property
     def hash(self) -> str:
-        """SHA-256 of the resolved study: what results carry to say what they are of."""
+        """SHA-256 of the resolved study, as results carry it."""
         return self._resolved[2]
 
     @property
     def warnings(self) -> list[str]:
-        """What is legal but probably not meant."""
+        """Warnings of values that are legal but probably not meant."""
         return _native.describe(self._resolved[0])[1]
 
     def __str__(self) -> str:
-        """Return what the study describes, line by line."""
+        """Return the description of the study, line by line."""
         return _native.describe(self._resolved[0])[0].rstrip()
 
     def __repr__(self) -> str:
@@ -193,7 +193,7 @@ def _json(study: Study) -> str:
 
 
 def _plain(key: str, value: Any) -> Any:
-    """Tables as dicts without what is left out, array-likes as lists."""
+    """Tables as dicts without keys that are left out, array-likes as lists."""
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         return {
             name: _plain(f"{key}.{name}" if key else name, given)
@@ -204,10 +204,10 @@ def _plain(key: str, value: Any) -> Any:
     if isinstance(value, (str, bool)):
         return value
     if isinstance(value, int):
-        # whole numbers of a study have 64 bits; what is larger is out of range as a number
+        # whole numbers of a study have 64 bits; larger ones are out of range as numbers
         return value if -(2**63) <= value < 2**63 else _plain(key, _real(value))
     if isinstance(value, float):
-        # JSON has no such numbers; as words they are refused with their key
+        # JSON has no NaN and no infinity; as words they are refused with their key
         return value if math.isfinite(value) else str(value)
     if isinstance(value, (list, tuple)) and not _numeric(value):
         return [_plain(f"{key}.{place}", item) for place, item in enumerate(value)]

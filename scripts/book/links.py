@@ -25,7 +25,7 @@ class _Page(HTMLParser):
 
 
 def problems(html: Path) -> list[str]:
-    """What is wrong in the site at `html`, a line for each fault."""
+    """Faults of the site at `html`, a line for each."""
     pages = {path: _Page(path.read_text(encoding="utf-8")) for path in sorted(html.rglob("*.html"))}
     found = []
     for path, page in pages.items():

@@ -23,7 +23,7 @@ def execute(path: Path):
     notebook = nbformat.read(path, as_version=4)
     NotebookClient(notebook, timeout=SECONDS, resources={"metadata": {"path": str(path.parent)}}).execute()
     for cell in notebook.cells:
-        # what differs in each run and says nothing: times, and bars of progress
+        # parts that differ in each run and mean nothing: times, and bars of progress
         cell.metadata.pop("execution", None)
         if cell.cell_type == "code":
             cell.outputs = [output for output in cell.outputs if output.get("name") != "stderr"]

@@ -1,4 +1,4 @@
-"""The runner of tutorials: what it runs, what it compares, and what it says when a page is wrong."""
+"""The runner of tutorials: blocks that it runs, comparisons, and messages when a page is wrong."""
 
 import sys
 import tempfile

@@ -98,7 +98,7 @@ def commands(block: Block):
 
 
 def run_console(block: Block) -> str:
-    """Runs the commands of a block; what the last of them printed."""
+    """Runs the commands of a block; gives the output of the last one."""
     printed = ""
     for line, command, shown in commands(block):
         done = subprocess.run(
@@ -113,7 +113,7 @@ def run_console(block: Block) -> str:
 
 
 def run_python(block: Block, page: str, namespace: dict) -> str:
-    """Runs a block; what it printed."""
+    """Runs a block; gives its output."""
     printed = io.StringIO()
     try:
         with contextlib.redirect_stdout(printed):
@@ -151,7 +151,7 @@ def run_here(page: str):
 
 
 def run(page: Path, folder: Path, python: str, path: str) -> str | None:
-    """Runs a page in a process of its own, in the new folder `folder`; what went wrong, with file and line."""
+    """Runs a page in a process of its own, in the new folder `folder`; gives failures, with file and line."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     environment = os.environ | {
@@ -176,7 +176,7 @@ def has_code(page: Path) -> bool:
 
 
 def collect(page: Path, folder: Path) -> list[str]:
-    """Brings the pictures that a page shows from the folder it ran in; what is missing or there already."""
+    """Brings the pictures that a page shows from the folder it ran in; names those missing or there already."""
     faults = []
     for name in dict.fromkeys(_PICTURE.findall(page.read_text(encoding="utf-8"))):
         made, place = folder / name, page.parent / name

@@ -9,11 +9,11 @@
 #   sbatch --array=1-64 --cpus-per-task=4 saltus-array.sh map study.toml --out results
 #
 # A task that was killed, preempted or requeued does only what is missing when it runs again: finished pieces lie
-# beside the folder of results, which all nodes must see. To run some tasks again, say of how many they are:
+# beside the folder of results, which all nodes must see. To run some tasks again, give the number of all tasks:
 #
 #   SALTUS_SHARDS=64 sbatch --array=3,17 saltus-array.sh map study.toml --out results
 #
-# SALTUS is the program, `saltus` if it is not said.
+# SALTUS is the program; by default `saltus`.
 set -euo pipefail
 
 shards=${SALTUS_SHARDS:-}

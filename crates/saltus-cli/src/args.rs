@@ -17,7 +17,7 @@ struct Cli {
     command: Command,
 }
 
-/// What to do.
+/// The commands.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     /// Compute every figure and statement of Dias & Del Prado into a folder with an index page
@@ -38,7 +38,7 @@ pub(crate) enum Command {
     /// Long-term motion at each point of a plane of two parameters
     #[command(after_help = help::map())]
     Map(DividedArgs),
-    /// Which long-term motion each first state leads to
+    /// The long-term motion that each first state leads to
     #[command(after_help = help::basins())]
     Basins(BasinsArgs),
     /// The periodic orbit near the long-term motion, stable or not
@@ -76,7 +76,7 @@ pub(crate) struct StudyArgs {
     pub(crate) sets: Vec<String>,
 }
 
-/// Where results go.
+/// Destination and form of results.
 #[derive(Debug, Args)]
 pub(crate) struct OutputArgs {
     /// Print one JSON document to standard output and nothing else
@@ -118,7 +118,7 @@ pub(crate) struct ReproduceArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct InitArgs {
-    /// Which study
+    /// Study to print
     #[arg(value_enum)]
     pub(crate) preset: Preset,
     /// File to write instead of standard output; replaced if it is there
@@ -133,7 +133,7 @@ pub(crate) enum Preset {
     Paper,
 }
 
-/// What most commands take.
+/// Arguments of most commands.
 #[derive(Debug, Args)]
 pub(crate) struct WorkArgs {
     #[command(flatten)]
@@ -144,7 +144,7 @@ pub(crate) struct WorkArgs {
     pub(crate) threads: ThreadArgs,
 }
 
-/// What a command takes whose work can be cut into pieces.
+/// Arguments of commands whose work can be cut into pieces.
 #[derive(Debug, Args)]
 pub(crate) struct DividedArgs {
     #[command(flatten)]
@@ -176,7 +176,7 @@ pub(crate) struct ContinueArgs {
     /// Begin at an orbit of this earlier result instead of at [start]
     #[arg(long, value_name = "DIR", requires = "at")]
     pub(crate) from: Option<PathBuf>,
-    /// Which orbit: the label of a special point, such as PD1
+    /// Label of a special point, such as PD1: its orbit
     #[arg(long, value_name = "LABEL", requires = "from")]
     pub(crate) at: Option<String>,
 }
@@ -244,7 +244,7 @@ pub(crate) fn parse(args: impl IntoIterator<Item = OsString>) -> Result<Option<C
             let _ = if args.iter().all(shown) {
                 error.print()
             } else {
-                // what it quotes would be obeyed by a terminal; so there are no colours
+                // it quotes text that a terminal might obey; so there are no colours
                 let text = printable_lines(&error.render().to_string());
                 io::stderr().write_all(text.as_bytes())
             };

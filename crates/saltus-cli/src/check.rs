@@ -1,4 +1,4 @@
-//! `saltus check`: what a study file describes.
+//! `saltus check`: the description of a study file.
 
 use crate::args::WorkArgs;
 use crate::ending::Ending;

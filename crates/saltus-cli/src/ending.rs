@@ -1,4 +1,4 @@
-//! How the program ends: what can go wrong, the exit code of each, and how it is told.
+//! Endings of the program: each failure, its exit code, and its message on standard error.
 //!
 //! | code | meaning |
 //! |---|---|
@@ -28,15 +28,15 @@ Exit codes:
   0    done
   1    the computation failed; the message says where and what to try
   2    wrong usage, or something wrong in the study file or an override
-  3    a file, folder or standard output cannot be read or written; an answer that was computed is then kept
-       elsewhere, and the message says where
+  3    a file, folder or standard output cannot be read or written; an answer
+       that was computed is then kept elsewhere, and the message says where
   130  interrupted (Ctrl-C); no half-written file is left
-  141  standard output was closed by its reader (as `head` does); nothing is said";
+  141  the reader of standard output closed it (as `head` does); nothing is said";
 
-/// Why the program did not do what was asked.
+/// Reasons why the program did not do its work.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Ending {
-    /// Told by the command line parser.
+    /// Wrong usage, reported by the command line parser.
     #[error("wrong usage")]
     Usage,
     /// There is no answer.
@@ -45,15 +45,15 @@ pub(crate) enum Ending {
     /// Standard output refused.
     #[error("cannot write standard output: {0}")]
     Output(String),
-    /// Standard output refused an answer that is nowhere else; where it is kept, if anywhere.
+    /// Standard output refused an answer that is nowhere else, and the folder where it is kept, if anywhere.
     #[error("cannot write standard output: {why}{}", kept(folder.as_deref()))]
     OutputElsewhere {
-        /// Why.
+        /// The reason.
         why: String,
-        /// Where the answer is.
+        /// Folder of the answer.
         folder: Option<PathBuf>,
     },
-    /// Whoever read standard output has stopped to.
+    /// The reader of standard output closed it.
     #[error("standard output was closed")]
     ClosedPipe,
 }
@@ -92,7 +92,7 @@ fn kept(folder: Option<&Path>) -> String {
     })
 }
 
-/// What is told, fit for a terminal: names and texts of others are in it.
+/// A message, fit for a terminal: it may hold names and texts of others.
 #[derive(Debug, thiserror::Error)]
 #[error("{message}")]
 struct Told {
@@ -119,7 +119,7 @@ impl From<&Ending> for Told {
     }
 }
 
-/// Tells a failure on standard error and gives the exit code.
+/// Reports a failure on standard error and gives the exit code.
 pub(crate) fn finish(outcome: Result<(), Ending>) -> u8 {
     let Err(ending) = outcome else {
         return 0;

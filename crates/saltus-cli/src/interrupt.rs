@@ -5,7 +5,7 @@ use signal_hook::flag;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-/// What asks to stop: Ctrl-C, a scheduler, and on Unix a terminal that goes away.
+/// Signals that ask to stop: from Ctrl-C, a scheduler, and on Unix a terminal that goes away.
 const ASKING: &[i32] = &[
     SIGINT,
     SIGTERM,
@@ -18,7 +18,7 @@ const INTERRUPTED: i32 = 130;
 
 /// Turns true at the first signal. Short commands do not call this and end as any program does.
 ///
-/// A signal that is ignored at the start stays ignored: who says `nohup` wants a run to outlive the terminal.
+/// A signal that is ignored at the start stays ignored: under `nohup` a run must outlive its terminal.
 pub(crate) fn flag() -> Arc<AtomicBool> {
     let asked = Arc::new(AtomicBool::new(false));
     let once = Arc::new(AtomicBool::new(false));
@@ -32,7 +32,8 @@ pub(crate) fn flag() -> Arc<AtomicBool> {
     asked
 }
 
-/// Linux tells of each process what it ignores. Elsewhere a child shows it, since it ignores what its parent does.
+/// Whether the process ignores the signal. Linux lists the ignored signals of each process; elsewhere a child
+/// shows them, since it inherits them.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -1,4 +1,4 @@
-//! What is done with a result that is there: `saltus cite` and `saltus rerun`.
+//! Commands on a saved result: `saltus cite` and `saltus rerun`.
 
 use crate::args::{CiteArgs, RerunArgs};
 use crate::ending::Ending;

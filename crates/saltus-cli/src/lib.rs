@@ -1,6 +1,6 @@
 //! The saltus program: reads a study file, asks, writes results. No formula lives here.
 //!
-//! A library only so that other front ends can bring the program along; see [`main`].
+//! It is a library only so that other front ends can bring the program along; see [`main`].
 
 mod args;
 mod check;

@@ -1,4 +1,4 @@
-//! A progress bar on standard error, only where someone is looking.
+//! A progress bar on standard error, if that is a terminal.
 
 use crate::output;
 use indicatif::{ProgressBar, ProgressStyle};

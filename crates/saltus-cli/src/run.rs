@@ -1,4 +1,4 @@
-//! What each command does: reads the study, asks, writes and tells what was found.
+//! Running of commands: reads the study, asks, writes and prints the answer.
 
 use crate::args::{
     BasinsArgs, Command, ContinueArgs, DividedArgs, OutputArgs, ReproduceArgs, SimulateArgs,
@@ -15,7 +15,7 @@ use saltus_commands::{
 use saltus_config::Study;
 use std::time::Instant;
 
-/// Does what was asked.
+/// Runs the command.
 pub(crate) fn run(command: Command) -> Result<(), Ending> {
     match command {
         Command::Reproduce(args) => reproduce(&args),
@@ -36,7 +36,7 @@ pub(crate) fn run(command: Command) -> Result<(), Ending> {
     }
 }
 
-/// How a question is answered, beside the question.
+/// Settings that do not belong to the question: output, threads, pieces.
 struct How<'a> {
     output: &'a OutputArgs,
     threads: &'a ThreadArgs,
@@ -148,7 +148,7 @@ impl How<'_> {
     }
 }
 
-/// Makes the pieces of a shard, and tells which.
+/// Makes the pieces of a shard, and prints which.
 fn share(request: &Request, study: &Study, shard: Shard, how: &How) -> Result<(), Ending> {
     let bars = Bars::new(how.output.quiet);
     let context = how.context(&bars);
@@ -159,7 +159,7 @@ fn share(request: &Request, study: &Study, shard: Shard, how: &How) -> Result<()
     tell(how.output.json, how.output.quiet, &share)
 }
 
-/// Asks, writes the folder of results if one was asked for, and tells what was found.
+/// Asks, writes the folder of results if one was asked for, and prints the answer.
 fn answer(request: &Request, study: &Study, how: &How) -> Result<(), Ending> {
     let bars = Bars::new(how.output.quiet);
     let context = how.context(&bars);
@@ -177,7 +177,7 @@ fn answer(request: &Request, study: &Study, how: &How) -> Result<(), Ending> {
                 return Err(failure.into());
             }
             Err(failure) => {
-                // of what could not be written the reader has this
+                // the folder could not be written, so the reader has at least this
                 let _ = told(answer.as_ref());
                 return Err(failure.into());
             }

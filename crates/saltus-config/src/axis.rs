@@ -1,4 +1,4 @@
-//! A key that goes from one value to another: what `[sweep]`, `[map.x]`, `[continue]` and their like share.
+//! A key that goes from one value to another, as in `[sweep]`, `[map.x]` and `[continue]`.
 
 use crate::Parameter;
 use crate::error::{StudyError, StudyErrorKind};
@@ -8,12 +8,12 @@ use crate::study::Study;
 /// A parameter and its ends.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Axis<'a> {
-    /// The table that says so, such as `map.x`.
+    /// The table of the axis, such as `map.x`.
     pub(crate) table: &'a str,
     pub(crate) parameter: &'a str,
     pub(crate) from: f64,
     pub(crate) to: f64,
-    /// Where the table says so.
+    /// Keys of the two ends in the table.
     pub(crate) ends: Ends,
 }
 
@@ -26,7 +26,7 @@ pub(crate) enum Ends {
     Listed(usize),
 }
 
-/// What is wrong with a parameter, and what would be right.
+/// The fault of a parameter, and what would be right.
 pub(crate) type Refusal = [&'static str; 2];
 
 impl Axis<'_> {
@@ -50,7 +50,7 @@ impl Axis<'_> {
             table, from, to, ..
         } = *self;
         let parameter = Parameter::parse(self.parameter)?;
-        // a jumper that is not there is told of as for any other change
+        // a jumper that is not there is reported as for any other change
         parameter.apply(study, from)?;
         let (what, help) = match parameter.value(study) {
             None => (
@@ -104,7 +104,7 @@ pub(crate) fn check(
     }
 }
 
-/// For [`check`]: a part of the system is asked for; `start` is what to say of a number of the first state.
+/// For [`check`]: refuses keys that are no part of the system; `start` is the refusal of a number of `[start]`.
 pub(crate) fn of_the_system(start: Refusal) -> impl Fn(&str) -> Option<Refusal> {
     move |given| match given.split('.').next() {
         Some("start") => Some(start),

@@ -1,4 +1,4 @@
-//! What is wrong with a study, where, and what would be right.
+//! Errors of a study: the fault, its place in the file, and what would be right.
 
 use crate::shown::{printable, printable_lines};
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
@@ -6,7 +6,7 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// What kind of thing is wrong.
+/// Kind of a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum StudyErrorKind {
@@ -86,10 +86,10 @@ impl StudyError {
         Some(first)
     }
 
-    /// How many problems are told one by one.
+    /// Number of problems that are reported one by one.
     pub(crate) const TOLD: usize = 20;
 
-    /// What kind of thing is wrong.
+    /// Kind of the fault.
     pub fn kind(&self) -> StudyErrorKind {
         self.0.kind
     }
@@ -99,7 +99,7 @@ impl StudyError {
         self.0.key.as_deref()
     }
 
-    /// What would be right.
+    /// Advice: what would be right.
     pub fn advice(&self) -> Option<&str> {
         self.0.help.as_deref()
     }
@@ -111,7 +111,7 @@ impl StudyError {
         Some(before.matches('\n').count() + 1)
     }
 
-    /// Where it is in the file (bytes), if it is there.
+    /// Start of its place in the file (bytes), if it has one.
     pub(crate) fn start(&self) -> Option<usize> {
         Some(self.0.place.as_ref()?.span.start)
     }

@@ -1,11 +1,11 @@
-//! Faults of a study: what is wrong, at which key, before it is known where the key came from.
+//! Faults of a study, each at its key, before it is known where the key came from.
 
 use crate::error::{StudyError, StudyErrorKind};
 use crate::key::Key;
 use crate::schema::{description, header};
 use toml::Value;
 
-/// One thing that is wrong.
+/// One fault.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Fault {
     pub(crate) kind: StudyErrorKind,
@@ -15,7 +15,7 @@ pub(crate) struct Fault {
     pub(crate) help: Option<String>,
 }
 
-/// What to underline.
+/// Part of the file to underline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Point {
     /// The name of the key.
@@ -69,7 +69,7 @@ pub(crate) struct Faults {
 }
 
 impl Faults {
-    /// More than are told, since those that stand first in the file need not be found first.
+    /// More than are reported, since those that stand first in the file need not be found first.
     const KEPT: usize = 10 * StudyError::TOLD;
 
     pub(crate) fn add(&mut self, fault: impl FnOnce() -> Fault) {

@@ -6,7 +6,7 @@ use crate::fault::{Fault, Point};
 use crate::key::Key;
 use toml::{Table, Value};
 
-/// What to say of a study that a newer version wrote.
+/// The fault of a study that a newer version wrote.
 pub(crate) fn newer(table: &Table) -> Option<Fault> {
     let format = table.get("format").and_then(Value::as_integer)?;
     (format > Study::FORMAT.into()).then(|| Fault {

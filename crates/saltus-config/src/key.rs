@@ -1,4 +1,4 @@
-//! Dotted names such as `plate.length`, `jumper.mass` (every jumper) and `jumper.0.mass` (one).
+//! Keys: dotted names such as `plate.length`, `jumper.mass` (every jumper) and `jumper.0.mass` (one).
 
 use crate::shown::printable;
 use std::fmt;

@@ -1,8 +1,8 @@
 //! The saltus study file: TOML with units, schema, overrides and errors that point at the line.
 //!
 //! A [`Study`] is the file, key by key, in SI units. [`load()`] reads and checks it, with overrides as
-//! on the command line, and [`Study::from_json`] does so for other languages; [`Study::plate`] and its sisters
-//! hand it on as [`saltus::physics`] records.
+//! on the command line, and [`Study::from_json`] does so for other languages. [`Study::plate`] and its sisters
+//! give it as [`saltus::physics`] records.
 //! The [`schema()`] made from the records is the one description of the keys: structure, ranges,
 //! suggestions, overrides and axis labels are all read from it.
 //!

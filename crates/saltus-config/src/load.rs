@@ -141,7 +141,7 @@ fn study(
         file,
         set_by: &SetBy::new(),
     };
-    // what a newer version calls its keys would only mislead
+    // names of keys in a newer version would only mislead
     nothing_set.refuse(format::newer(&table).into_iter().collect())?;
     let (table, set_by) = overrides::apply(sets, table)?;
     let origin = Origin {
@@ -161,14 +161,14 @@ fn study(
     Ok(study)
 }
 
-/// Where keys came from: a file, if there is one, and overrides.
+/// Origin of keys: a file, if there is one, and overrides.
 struct Origin<'a> {
     file: Option<(&'a str, &'a Source)>,
     set_by: &'a SetBy,
 }
 
 impl Origin<'_> {
-    /// The problems that stand first in the file, and how many more there are.
+    /// The problems that stand first in the file, and the number of further ones.
     fn refuse(&self, faults: Faults) -> Result<(), StudyError> {
         let count = faults.count();
         let located = faults.into_iter().map(|fault| self.locate(fault));

@@ -1,4 +1,4 @@
-//! `--set table.key=value`: changes to a study file from outside it.
+//! Overrides, `--set table.key=value`: changes to a study from outside its file.
 
 use crate::error::{StudyError, StudyErrorKind};
 use crate::key::{Key, index};
@@ -17,7 +17,7 @@ const INSTEAD: [(&str, &[&str]); 6] = [
     ("count", &["values"]),
 ];
 
-/// Which keys were set from outside, and by which text.
+/// Keys that were set from outside, each with the text of its override.
 pub(crate) type SetBy = HashMap<String, String>;
 
 /// Applies each override in turn; later ones win.

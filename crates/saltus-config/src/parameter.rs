@@ -1,4 +1,4 @@
-//! One number of a study, by its key: what a sweep changes and an axis shows.
+//! One number of a study, by its key, as a sweep changes it and an axis shows it.
 
 use crate::error::{StudyError, StudyErrorKind};
 use crate::fault;
@@ -154,7 +154,7 @@ impl Study {
     }
 }
 
-/// Tables that say what is asked: no question changes itself or another.
+/// Tables of questions: no question changes itself or another.
 const QUESTIONS: [&str; 7] = [
     "sweep",
     "map",
@@ -165,7 +165,7 @@ const QUESTIONS: [&str; 7] = [
     "attractors",
 ];
 
-/// Does the key hold a number of the system or its start?
+/// Whether the key holds a number of the system or its start.
 fn varies(key: &Key) -> bool {
     let number = Node::root()
         .find(key.segments())

@@ -1,10 +1,10 @@
-//! From the study file's words to the records of [`saltus::physics`] and how they are integrated.
+//! From the study file to the records of [`saltus::physics`] and the options of the engine.
 
 use crate::study::{Basis, Inertia, JumperTable, Law, Method, Modes, Reference, Study};
 use saltus::{hybrid, model, physics};
 
 impl Study {
-    /// The whole physical question.
+    /// The whole physical system.
     pub fn setup(&self) -> model::Setup {
         model::Setup {
             plate: self.plate(),
@@ -16,7 +16,7 @@ impl Study {
         }
     }
 
-    /// How it is integrated. The engine counts the switches of all jumpers together.
+    /// Options of the integration. The engine counts the switches of all jumpers together.
     pub fn options(&self) -> hybrid::Options {
         let (solver, usual) = (&self.solver, hybrid::Options::default());
         let people = u32::try_from(self.jumper.len()).unwrap_or(u32::MAX).max(1);
@@ -59,7 +59,7 @@ impl Study {
         self.jumper.iter().map(physics::Jumper::from).collect()
     }
 
-    /// When feet leave the floor and come back.
+    /// The law that decides when feet leave the floor and touch down.
     pub fn contact_law(&self) -> physics::ContactLaw {
         self.contact.law.into()
     }

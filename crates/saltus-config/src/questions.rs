@@ -1,4 +1,4 @@
-//! Questions of a study: sweep, planes, orbits, branches and attractors. Each must be possible for the system at hand.
+//! Questions of a study: sweep, planes, orbits, branches and attractors. Each must be possible for its system.
 
 use crate::axis::{self, Axis, Ends};
 use crate::error::StudyError;
@@ -8,7 +8,7 @@ use crate::study::{AxisTable, ContinueTable, Direction, SecondTable, Study};
 use crate::validate;
 use crate::values;
 
-/// What a start is made of.
+/// Keys of a start.
 const STARTS: [&str; 2] = ["start.z", "start.v"];
 
 impl Study {
@@ -21,7 +21,7 @@ impl Study {
     }
 }
 
-/// Everything that is wrong with the study.
+/// All faults of the study.
 pub(crate) fn faults(study: &Study) -> Vec<Fault> {
     let mut faults = validate::faults_of_system(study);
     // the ends of a parameter are tried on a study that is itself sound

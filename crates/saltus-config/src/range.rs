@@ -1,6 +1,6 @@
-//! Ranges that garde has no word for: what fields of the study file are checked with.
+//! Ranges of fields of the study file that garde has no word for.
 
-/// Comparisons with NaN are false, so a range lets it pass; this does not.
+/// Refuses NaN and infinity: comparisons with NaN are false, so a range lets it pass.
 pub(crate) fn finite(value: &f64, _: &()) -> garde::Result {
     if value.is_finite() {
         Ok(())

@@ -48,7 +48,7 @@ pub(crate) fn description(key: &Key) -> Option<String> {
     Some(text.trim_end_matches('.').to_owned())
 }
 
-/// How a table is written in the file.
+/// Name of a table as it is written in the file.
 pub(crate) fn header(table: &Key) -> String {
     let segments = table.segments();
     match Node::root().find(segments).map(Node::kind) {
@@ -84,7 +84,7 @@ pub(crate) enum Kind {
     Number,
     Integer,
     Word,
-    /// One of several kinds, told apart by the value given.
+    /// One of several kinds, decided by the value given.
     Any,
 }
 
@@ -162,7 +162,7 @@ impl Node {
         }
     }
 
-    /// What would be right, in words.
+    /// The values allowed, in words.
     pub(crate) fn wanted(self) -> String {
         let words = self.words();
         if !words.is_empty() {

@@ -1,4 +1,4 @@
-//! Names and texts from a study as they can be shown: what a terminal would take for a command is written out.
+//! Names and texts from a study, fit to be shown: characters that a terminal would obey are written out.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ pub(crate) fn printable(text: &str) -> String {
     escaped(text, |_| false)
 }
 
-/// As [`printable`], but line breaks stay: those of an override that somebody gave.
+/// As [`printable`], but line breaks stay, as those of an override.
 pub(crate) fn printable_lines(text: &str) -> String {
     escaped(text, |letter| letter == '\n')
 }
@@ -38,7 +38,7 @@ pub(crate) fn printable_source(text: &str) -> String {
     text.chars().map(mark).collect()
 }
 
-/// Whether a terminal does something else with it than show it.
+/// Whether a terminal obeys the letter instead of showing it.
 fn commands(letter: char) -> bool {
     letter.is_control()
         || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')

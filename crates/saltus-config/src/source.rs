@@ -1,4 +1,4 @@
-//! Where each key stands in the text.
+//! Places of keys and values in the text of a study file.
 
 use crate::error::{Place, StudyError, StudyErrorKind};
 use crate::key::Key;

@@ -1,4 +1,4 @@
-//! Does a table have the keys, types and ranges of the schema? All faults are found, not only the first.
+//! Check of a table against the keys, types and ranges of the schema. All faults are found, not only the first.
 
 use crate::error::StudyErrorKind;
 use crate::fault::{Fault, Faults, Point};
@@ -85,7 +85,7 @@ fn check_list(node: Node, items: &[Value], value: &Value, key: &Key, faults: &mu
     }
 }
 
-/// NaN fails every comparison, so it is asked for what is right, not for what is wrong.
+/// A value outside its range is a fault. NaN fails every comparison, so the comparisons ask for what is right.
 fn check_range(node: Node, x: f64, value: &Value, key: &Key, faults: &mut Faults) {
     let above = node.number("minimum").is_none_or(|min| x >= min)
         && node.number("exclusiveMinimum").is_none_or(|min| x > min);
@@ -148,12 +148,12 @@ fn wrong_type(node: Node, value: &Value, key: &Key) -> Fault {
     }
 }
 
-/// What is wrong with one table in place of a list of them.
+/// The fault of one table in place of a list of them.
 pub(crate) fn single(key: &Key) -> String {
     format!("{key} is one table, [{key}], and must be a list of them")
 }
 
-/// What is right then.
+/// Advice in that case.
 pub(crate) fn brackets(key: &Key) -> String {
     format!("write [[{key}]], in double brackets, once for each")
 }

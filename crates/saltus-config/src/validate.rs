@@ -1,4 +1,4 @@
-//! Is a study of the right shape also a possible one?
+//! Check of the system: values in their ranges, and keys that agree with each other.
 
 use crate::fault::{Fault, key, wrong};
 use crate::schema::Node;
@@ -6,7 +6,7 @@ use crate::study::{Basis, Law, Modes, Reference, Study};
 use garde::Validate;
 use toml::Value;
 
-/// Everything that is wrong with the study, the questions about it aside.
+/// All faults of plate, people, base and run; questions are checked elsewhere.
 pub(crate) fn faults_of_system(study: &Study) -> Vec<Fault> {
     let mut faults = ranges(study);
     thickness(study, &mut faults);

@@ -1,4 +1,4 @@
-//! What goes wrong in Rust, as the exceptions of `saltus._errors`.
+//! Failures in Rust, as the exceptions of `saltus._errors`.
 
 use std::any::Any;
 
@@ -15,7 +15,7 @@ import_exception!(saltus._errors, ComputationError);
 import_exception!(saltus._errors, ResultError);
 import_exception!(saltus._errors, InternalError);
 
-/// Why a question has no answer.
+/// The exception of a question that has no answer.
 pub(crate) fn of(failure: &Failure) -> PyErr {
     let text = match failure.help() {
         Some(help) => format!("{failure} ({help})"),
@@ -38,9 +38,9 @@ pub(crate) fn of(failure: &Failure) -> PyErr {
     }
 }
 
-/// A study's problem with the key, what would be right, and the line; further ones follow in the text.
+/// A fault of a study with its key, advice and line; further ones follow in the text.
 ///
-/// A message about an override begins with the option of the program; here it was an argument.
+/// A message about an override begins with the option of the program; in Python it was an argument.
 pub(crate) fn of_study(problem: &Problem, overrides: &[String]) -> PyErr {
     let mut text = sentence(problem, overrides);
     for other in problem.others() {
@@ -75,7 +75,7 @@ pub(crate) fn of_computation(reason: impl ToString) -> PyErr {
     ComputationError::new_err((reason.to_string(),))
 }
 
-/// What a panic was about. Python's own exception for it is caught by nobody who catches `Exception`.
+/// The exception of a panic, with its message. PyO3's own is no subclass of `Exception`, so nobody would catch it.
 pub(crate) fn broken(panic: &(dyn Any + Send)) -> PyErr {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let said = text.or(panic.downcast_ref::<&str>().copied());

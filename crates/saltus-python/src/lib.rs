@@ -1,6 +1,6 @@
 //! The native module of the Python package `saltus`: hands arrays in and out, and computes beside Python.
 //!
-//! What a user sees is in `python/saltus`; nothing here is public but to that package.
+//! The public interface is in `python/saltus`; items here are for that package alone.
 
 mod answer;
 mod error;

@@ -1,8 +1,8 @@
 //! Long work on a thread of its own while Python stays awake: signals, progress, panics, the end of the program.
 //!
-//! A thread owns all that it works on and never calls Python, so it can be left behind when it does not stop in
-//! time, and what a fork leaves out is only the work. The list of what is running is only locked by threads
-//! attached to Python; since a fork holds on to Python, the child never finds it locked.
+//! A thread owns all that it works on and never calls Python. So it can be left behind when it does not stop in
+//! time, and a fork loses nothing but the work. The list of running work is locked only by threads attached to
+//! Python; since a fork holds on to Python, the child never finds it locked.
 
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -19,20 +19,21 @@ use saltus_commands::{Stage, Watch};
 
 use crate::error::{broken, of_computation};
 
-/// How often the calling thread looks for signals: a person does not notice.
+/// Time between two looks for signals by the calling thread: short enough that nobody notices.
 const TICK: Duration = Duration::from_millis(50);
 /// Ticks from one call of a progress function to the next: ten a second are enough for eyes.
 const TICKS_PER_REPORT: u32 = 2;
-/// Ticks that work has to stop in, two seconds: a step of any method takes far less. What looks at no flag, such as
-/// the eigenvalues of a large matrix or a pipe that nobody writes to, is left behind then.
+/// Ticks that work has to stop in, two seconds: a step of any method takes far less. Work that looks at no flag, such
+/// as the eigenvalues of a large matrix or a pipe that nobody writes to, is left behind then.
 const TICKS_TO_STOP: u32 = 40;
-/// How long the end of the program waits for work to stop.
+/// Time for which the end of the program waits for work to stop.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// Who wants to hear how far the work is: a callable taking what is done, how many, and of how many (or None).
+/// A progress function: it takes the name of the work, the number of its parts that are done, and their total (or
+/// None).
 pub(crate) type Listener = Option<Py<PyAny>>;
 
-/// Where the work writes how far it has come, and what is worth knowing.
+/// Board on which the work notes its progress and its remarks.
 #[derive(Default)]
 pub(crate) struct Board {
     stage: Mutex<Option<Stage>>,
@@ -40,7 +41,7 @@ pub(crate) struct Board {
 }
 
 impl Board {
-    /// What was noted since the last call.
+    /// Remarks since the last call.
     pub(crate) fn notes(&self) -> Vec<String> {
         std::mem::take(&mut *lock(&self.notes))
     }
@@ -101,7 +102,7 @@ pub(crate) fn run<T: Send + 'static>(
 /// and then.
 ///
 /// # Errors
-/// What the work refuses with; what a signal handler or the listener raises, such as KeyboardInterrupt;
+/// The exception of the work itself; that of a signal handler or the listener, such as KeyboardInterrupt;
 /// `InternalError` if the work panics; `ComputationError` if there is no thread to be had; SystemExit if the
 /// program ends meanwhile.
 pub(crate) fn attended<T: Send + 'static>(
@@ -130,8 +131,8 @@ pub(crate) fn aside<T: Send + 'static>(
     beside(py, &Arc::default(), &None, &Arc::default(), |_| work())?
 }
 
-/// What `work` gives on another thread. Fails if something is raised here meanwhile, or the work panics; what it
-/// refuses with is its answer.
+/// The answer of `work` on another thread, its own exception included. Fails if something is raised here meanwhile,
+/// or the work panics.
 fn beside<T: Send + 'static>(
     py: Python<'_>,
     stop: &Arc<AtomicBool>,
@@ -143,7 +144,7 @@ fn beside<T: Send + 'static>(
     let flag = Arc::clone(stop);
     let worker = thread::Builder::new()
         .spawn(move || {
-            // nobody is there to take what comes too late
+            // an answer that comes too late has no receiver
             let _ = give.send(work(&flag));
         })
         .map_err(|reason| no_thread(&reason))?;
@@ -163,7 +164,8 @@ fn beside<T: Send + 'static>(
     })
 }
 
-/// Waits for the answer; what Python raises meanwhile, or the end of the program, gives the work a little time to stop.
+/// Waits for the answer. An exception in Python meanwhile, or the end of the program, gives the work a little time to
+/// stop.
 fn attend<T>(
     answer: &Receiver<T>,
     stop: &AtomicBool,
@@ -208,7 +210,7 @@ fn no_thread(reason: &io::Error) -> PyErr {
     ))
 }
 
-/// What `work` gives on this thread; a panic in it is an `InternalError`.
+/// The answer of `work` on this thread; a panic in it is an `InternalError`.
 pub(crate) fn sound<T>(work: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
     catch_unwind(AssertUnwindSafe(work)).unwrap_or_else(|panic| Err(broken(&*panic)))
 }
@@ -291,8 +293,8 @@ pub(crate) fn shut_down(py: Python<'_>) {
     }
 }
 
-/// Counts to `total` as long work does, or as work that looks at no flag, and panics at the end if asked: what the
-/// tests of this file run.
+/// Counts to `total` as long work does, or as work that looks at no flag, and panics at the end if asked; for the
+/// tests of this file.
 #[pyfunction]
 #[pyo3(signature = (total, *, panics=false, stops=true, progress=None))]
 pub(crate) fn count(

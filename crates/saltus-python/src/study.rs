@@ -52,7 +52,7 @@ pub(crate) fn paper_template() -> String {
     saltus_config::paper_template()
 }
 
-/// What a study describes, in words, and what in it is probably not meant.
+/// The description of a study in words, and warnings of values that are probably not meant.
 #[pyfunction]
 pub(crate) fn describe(py: Python<'_>, json: String) -> PyResult<(String, Vec<String>)> {
     aside(py, move || {

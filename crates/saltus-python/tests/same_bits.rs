@@ -75,7 +75,7 @@ fn chain() -> Built {
     let pairs: Vec<_> = squares.into_iter().zip(factors).collect();
     let cubes = b.products(&pairs);
     let within = [1, 2].map(|i| b.linear(0.0, &[(1.0, factors[i]), (1.0, cubes[i])]));
-    // What only one mass feels, the walls and the drive, is part of its rate.
+    // The walls and the drive act on one mass each, so they are part of its rate.
     let rates = [
         vec![
             (1.0, within[0]),

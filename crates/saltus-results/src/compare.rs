@@ -1,8 +1,8 @@
-//! Two results side by side: which files are the same bits, and by how much the others differ.
+//! Two results side by side: files of the same bits, and the largest differences of the others.
 //!
 //! A result that is computed again on another machine may round otherwise. So a table, a dataset or a
-//! report that is not the same is read, and its largest difference is told with its place; what it is worth
-//! is for the reader to judge.
+//! report that is not the same is read, and its largest difference is reported with its place. The reader
+//! judges whether it matters.
 
 mod json;
 mod lines;
@@ -20,7 +20,7 @@ use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader};
 use std::path::Path;
 
-/// What two result folders have in common and what not.
+/// Comparison of two result folders.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Comparison {
@@ -34,12 +34,12 @@ pub struct Comparison {
 pub struct FileComparison {
     /// Path within the folders.
     pub name: String,
-    /// What became of it.
+    /// How it compares.
     #[serde(flatten)]
     pub outcome: Outcome,
 }
 
-/// What became of a file from the first result to the second.
+/// Outcome of the comparison of one file.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "outcome", rename_all = "snake_case")]
 #[non_exhaustive]
@@ -52,7 +52,7 @@ pub enum Outcome {
     Extra,
     /// Other bits that say the same: the numbers and texts within are all equal.
     WrittenDifferently,
-    /// Other numbers or texts: what differs, for each part of the file. A table or a report is one part, a
+    /// Other numbers or texts: the differences of each part of the file. A table or a report is one part, a
     /// dataset has one for each variable.
     Different {
         /// The parts that differ.
@@ -62,7 +62,7 @@ pub enum Outcome {
     DrawnDifferently,
     /// A file with other bits that cannot be looked into, and why.
     OtherBytes {
-        /// Why not, as "not a table: ..."; empty for files of a kind that nothing is known of.
+        /// The reason, as "not a table: ..."; empty for files of an unknown kind.
         reason: String,
     },
 }
@@ -103,7 +103,7 @@ impl Comparison {
         self.files.iter().all(same)
     }
 
-    /// In words: a line for each file that is not the same, and how many are.
+    /// In words: a line for each file that is not the same, and the number of those that are.
     pub fn text(&self) -> String {
         self.to_string()
     }
@@ -180,7 +180,7 @@ fn outcome(name: &str, first: &Path, second: &Path) -> Result<Outcome, ResultsEr
     })
 }
 
-/// Manifests without their checksums: what differs there has been told of each file.
+/// Manifests without their checksums, which say no more than the comparison of each file.
 fn manifests(ours: &Manifest, theirs: &Manifest) -> Outcome {
     let about = |manifest: &Manifest| serde_json::json!({ "version": manifest.version, "about": manifest.about });
     let differences = json::values(&about(ours), &about(theirs));

@@ -1,4 +1,4 @@
-//! Why a result could not leave: one enum for the whole crate.
+//! Failures to draw, to write or to read a result: one enum for the whole crate.
 
 use crate::shown;
 use std::io;
@@ -11,7 +11,7 @@ pub enum ResultsError {
     /// The operating system refused a file operation.
     #[error("cannot {action} `{}`: {}", shown::path(path), reason(source))]
     Io {
-        /// What was attempted, as a verb: "write", "create the folder", ...
+        /// The operation, as a verb: "write", "create the folder", ...
         action: &'static str,
         /// The path in question.
         path: PathBuf,
@@ -35,7 +35,7 @@ pub enum ResultsError {
     WrongKind {
         /// The path in question.
         path: PathBuf,
-        /// What it should have been: "folder" or "file".
+        /// The kind that is needed: "folder" or "file".
         expected: &'static str,
     },
     /// A name inside a result folder that is not a plain relative path.
@@ -47,12 +47,12 @@ pub enum ResultsError {
         /// The refused name.
         name: String,
     },
-    /// What should be a result folder is none.
+    /// A path that should be a result folder and is none.
     #[error("`{}` is no result of saltus: {problem}", shown::path(path))]
     NotAResult {
         /// The path in question.
         path: PathBuf,
-        /// Why not.
+        /// The reason.
         problem: String,
     },
     /// The manifest of a result folder is not one that this version reads.
@@ -60,7 +60,7 @@ pub enum ResultsError {
     Manifest {
         /// The manifest.
         path: PathBuf,
-        /// What is wrong with it and what would be right.
+        /// The fault, and what would be right.
         problem: String,
     },
     /// A table could not be written to its destination.
@@ -84,7 +84,7 @@ pub enum ResultsError {
     Dataset {
         /// The variable, dimension or attribute in question.
         name: String,
-        /// What is wrong with it and what would be right.
+        /// The fault, and what would be right.
         problem: String,
     },
     /// A folder of pieces is in use by another run.
@@ -107,7 +107,7 @@ pub enum ResultsError {
     ForeignPieces {
         /// The folder of pieces.
         path: PathBuf,
-        /// What differs, in words: each name with what was found and what is expected.
+        /// The differences in words: each name with the value found and the value expected.
         differences: String,
     },
     /// A folder meant for pieces holds something else.
@@ -132,7 +132,7 @@ pub enum ResultsError {
         /// The file that would have marked it as a folder of pieces.
         manifest: &'static str,
     },
-    /// A piece is there but not what was written.
+    /// A piece is there, but not as it was written.
     #[error(
         "the piece `{}` is damaged ({problem}); it will have to be made again",
         shown::path(path)
@@ -140,7 +140,7 @@ pub enum ResultsError {
     DamagedPiece {
         /// File of the piece.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The damage, in words.
         problem: String,
     },
     /// A PNG of this size cannot be drawn.

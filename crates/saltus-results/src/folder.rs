@@ -3,7 +3,8 @@
 //! Everything is written to a staging place on the same file system first; only when all of it is on
 //! disk does it move to its name. A run that fails, or is interrupted, leaves the target as it was.
 //!
-//! A folder holds one result. Where it takes the place of an earlier one, files of that which it has not are removed.
+//! A folder holds one result. Where it takes the place of an earlier one, files that only the earlier one has are
+//! removed.
 
 use crate::manifest::{Digesting, FileRecord, Manifest};
 use crate::staging::{self, STAGING, Staging};
@@ -34,7 +35,7 @@ impl ResultFolder {
     /// Prepares the folder `dir`, which may be absent, empty, or one written by this program.
     ///
     /// The staging place is a sibling of `dir`, or lies inside `dir` if that exists: it may be a mount
-    /// point, from which a sibling could not be moved. Those that killed processes left there are removed.
+    /// point, from which a sibling could not be moved. Staging places of killed processes are removed.
     ///
     /// # Errors
     /// [`ResultsError::ForeignFolder`] if `dir` holds files of others, [`ResultsError::WrongKind`] if it
@@ -62,7 +63,7 @@ impl ResultFolder {
             about: serde_json::json!({}),
             files: Vec::new(),
         };
-        // The temporary folder is private to its owner; what is inside follows the user's own rules.
+        // The temporary folder is private to its owner; files inside follow the user's own rules.
         fs::create_dir(folder.content())
             .map_err(ResultsError::io("create the folder", &folder.target))?;
         Ok(folder)
@@ -125,9 +126,9 @@ impl ResultFolder {
 
     /// Moves everything into place and returns the folder's path.
     ///
-    /// A new folder appears in one step. In an existing one, files of the result that was there and which this one has
-    /// not are removed, unless somebody changed them since. Then files of the same name are replaced one
-    /// by one, each in one step, the marker first and the index page last. All other files stay.
+    /// A new folder appears in one step. In an existing one, files that only the earlier result has are removed, unless
+    /// somebody changed them since. Then files of the same name are replaced one by one, each in one step, the marker
+    /// first and the index page last. All other files stay.
     ///
     /// # Errors
     /// As [`stage`](Self::stage), if the target changed in between or a move fails.
@@ -151,8 +152,8 @@ impl ResultFolder {
         self.staging.path().join("content")
     }
 
-    /// Removes what is left of an earlier result and would be taken for a part of this one. A manifest that cannot be
-    /// read names nothing.
+    /// Removes files of an earlier result that would be taken for a part of this one. A manifest that cannot be
+    /// read names none.
     fn remove_others(&self) -> Result<(), ResultsError> {
         let earlier = Manifest::read(&self.target).map_or(Vec::new(), |manifest| manifest.files);
         let mine: HashSet<&str> = self.files.iter().map(|file| file.name.as_str()).collect();
@@ -184,8 +185,8 @@ impl ResultFolder {
     }
 
     fn move_files(&self) -> Result<(), ResultsError> {
-        // Two that end at the same time must not leave a mixture. Where there are no locks they might, and the
-        // checksums of the manifest tell.
+        // Two that end at the same time must not leave a mixture. Without locks they might, and the checksums of the
+        // manifest show it.
         let _alone = File::open(&self.target).and_then(|dir| dir.lock().map(|()| dir));
         self.remove_others()?;
         let mut files: Vec<&str> = self.files.iter().map(|file| file.name.as_str()).collect();

@@ -1,4 +1,4 @@
-//! What leaves saltus: figures, tables and result folders written whole or not at all.
+//! Results of saltus: figures, tables and result folders, written whole or not at all.
 //!
 //! The crate receives plain data (slices of `f64` and labels) and knows no physics. Its parts:
 //!
@@ -18,7 +18,7 @@
 pub mod compare;
 pub mod csv;
 pub mod dataset;
-pub mod error;
+mod error;
 pub mod figure;
 pub mod folder;
 pub mod json;

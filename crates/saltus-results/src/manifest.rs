@@ -1,8 +1,8 @@
-//! The manifest of a result folder: what was asked, by which version, and a checksum of every file.
+//! The manifest of a result folder: the request, the version that answered it, and a checksum of every file.
 //!
 //! It holds no time and no name of a machine, so that two runs of the same study are the same folder. It
-//! can be no witness against who alters a file and the manifest; it tells of copies cut short, of disks
-//! that forgot, and of a table that was edited by hand.
+//! shows copies cut short, damage by a disk, and a table that was edited by hand, but not an alteration of a file
+//! together with the manifest.
 
 use crate::folder::{MARKER, plain};
 use crate::shown::printable;
@@ -16,12 +16,12 @@ use std::fs;
 use std::io::{self, Read, Write};
 use std::path::Path;
 
-/// What the manifest calls itself.
+/// Name of the format.
 const FORMAT: &str = "saltus-result";
 /// Version of the format; a newer one is not read.
 const FORMAT_VERSION: u32 = 1;
 
-/// What a result folder says of itself, in the file [`MARKER`].
+/// Description of a result folder, from its file [`MARKER`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Manifest {
@@ -29,7 +29,7 @@ pub struct Manifest {
     format_version: u32,
     /// Version of the program that wrote the folder.
     pub version: String,
-    /// What the result is, as given by [`ResultFolder::about`](crate::ResultFolder::about).
+    /// Request and method, as given by [`ResultFolder::about`](crate::ResultFolder::about).
     pub about: serde_json::Value,
     /// Every file but the manifest itself, in the order of writing.
     pub files: Vec<FileRecord>,
@@ -53,7 +53,7 @@ pub struct FileRecord {
 pub struct Problem {
     /// Path within the folder.
     pub name: String,
-    /// What is wrong, as "is missing".
+    /// The difference, as "is missing".
     pub problem: String,
 }
 
@@ -98,7 +98,7 @@ impl Manifest {
         parse(&text).map_err(|problem| ResultsError::Manifest { path, problem })
     }
 
-    /// Reads every file of the folder `dir` and tells which are no longer as they were written. Files that
+    /// Reads every file of the folder `dir` and lists those that are no longer as they were written. Files that
     /// are not in the manifest are of no concern.
     pub fn verify(&self, dir: &Path) -> Vec<Problem> {
         let problem = |record: &FileRecord| {
@@ -112,7 +112,7 @@ impl Manifest {
 }
 
 impl FileRecord {
-    /// What is no longer as it was written.
+    /// The difference from the file as it was written, if there is one.
     pub(crate) fn problem(&self, dir: &Path) -> Option<String> {
         match self.check(&dir.join(&self.name)) {
             Ok(problem) => problem,
@@ -159,7 +159,7 @@ fn hexadecimal(bytes: &[u8]) -> String {
     })
 }
 
-/// Why the folder `dir` has no manifest, if that is not a matter of the file system.
+/// Reason why the folder `dir` has no manifest, if it is not one of the file system.
 fn why_not(dir: &Path) -> Option<String> {
     match fs::metadata(dir) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
@@ -227,7 +227,7 @@ fn is_version(text: &str) -> bool {
     text.starts_with(|c: char| c.is_ascii_digit()) && text.len() <= 64 && text.chars().all(letter)
 }
 
-/// A writer that remembers how much went through it, and its checksum.
+/// A writer that counts its bytes and computes their checksum.
 pub(crate) struct Digesting<W> {
     inner: W,
     hash: Sha256,

@@ -1,4 +1,4 @@
-//! Reading what somebody else may have put there: ordinary files only, and no more of them than can be meant.
+//! Reading of files that somebody else may have put there: ordinary files only, up to a bound.
 //!
 //! A pipe in place of a file would be waited for without end, a device would fill the memory.
 
@@ -24,7 +24,7 @@ pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Opens an ordinary file. It is looked at first, since opening a pipe waits for who writes to it.
+/// Opens an ordinary file. Its kind is checked first, since opening a pipe waits for a writer.
 pub(crate) fn open(path: &Path) -> io::Result<File> {
     let data = fs::metadata(path)?;
     if data.is_dir() {

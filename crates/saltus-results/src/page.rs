@@ -21,9 +21,9 @@ pub struct Page {
 /// A figure with its caption and the files that hold it.
 #[derive(Clone, Debug)]
 pub struct FigureBlock<'a> {
-    /// What the figure shows, for the caption.
+    /// The caption.
     pub caption: &'a str,
-    /// What a person who cannot see it must know; the caption if empty.
+    /// Text for a person who cannot see the figure; the caption if empty.
     pub alternative: &'a str,
     /// The image shown in the page.
     pub image: Image<'a>,
@@ -40,7 +40,7 @@ pub enum Image<'a> {
     Png(&'a [u8]),
 }
 
-/// How a claim fared. Each badge has its own sign, so that colour is not needed to tell them apart.
+/// Verdict on a claim. Each badge has its own sign, so that colour is not needed to distinguish them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// Reproduced as claimed.
@@ -87,9 +87,9 @@ pub struct Fact {
     pub claim: String,
     /// Our value, with its unit.
     pub value: String,
-    /// How the claim fared.
+    /// The verdict on the claim.
     pub verdict: Verdict,
-    /// On which reading of the source the verdict depends.
+    /// Reading of the source on which the verdict depends.
     pub reading: String,
 }
 
@@ -226,7 +226,7 @@ impl Page {
         self.push(&format!("<pre><code>{}</code></pre>\n", escape(text)))
     }
 
-    /// A part that is folded away until asked for; `fill` adds to it what a page can hold.
+    /// A part that is folded away until asked for; `fill` adds to it anything that a page can hold.
     #[must_use]
     pub fn details(self, summary: &str, fill: impl FnOnce(Self) -> Self) -> Self {
         let inside = fill(self.push(&format!(

@@ -1,14 +1,14 @@
 //! Finished pieces of long work, kept so that it can be taken up again after a stop.
 //!
-//! A [`PieceStore`] is a folder with one file for each numbered piece and a manifest that says which work
+//! A [`PieceStore`] is a folder with one file for each numbered piece and a manifest that names the work
 //! they belong to. A piece is written aside, brought to the disk and renamed, so it is there whole or not
-//! at all; its header and checksum tell if the disk kept it.
+//! at all; its header and checksum show whether the disk kept it.
 //!
 //! One process works in a folder at a time, or many do that have it open [shared](PieceStore::open_shared), on
 //! as many machines as see the folder. Nothing depends on locks, which network file systems may lack or keep
-//! to one machine: two that write the same piece write the same bytes, whoever comes first names the work in
-//! the manifest, and each piece says to which work it belongs. Where there are locks they refuse early what
-//! would be of no use: a run of its own in a folder that others fill.
+//! to one machine: two that write the same piece write the same bytes, the first process names the work in
+//! the manifest, and each piece says to which work it belongs. Where there are locks, a run of its own in a
+//! folder that others fill is refused early.
 //!
 //! ```
 //! use saltus_results::PieceStore;
@@ -47,11 +47,11 @@ const LARGEST: u64 = 1 << 30;
 
 /// Name of the file with the remark.
 const REMARK: &str = "remark";
-/// How the names of files in the making begin; six letters follow.
+/// Prefix of the names of files in the making; six letters follow.
 const ASIDE: &str = ".tmp";
-/// How they end. Left by a killed process, they are removed at opening.
+/// Suffix of these names. Left by a killed process, the files are removed at opening.
 const PART: &str = ".part";
-/// The same for a shared folder. They stay until all is removed, since the one who opens the folder alone
+/// Suffix in a shared folder. The files stay until all is removed, since a process that opens the folder alone
 /// cannot rely on a lock to know that their writers are gone.
 const PART_SHARED: &str = ".shared.part";
 const ALL_PARTS: [&str; 2] = [PART, PART_SHARED];
@@ -64,13 +64,13 @@ const ALL_PARTS: [&str; 2] = [PART, PART_SHARED];
 #[derive(Debug)]
 pub struct PieceStore {
     dir: PathBuf,
-    /// In each piece: one from other work is told from ours.
+    /// Mark in each piece by which one of other work is recognised.
     seal: Seal,
     access: Access,
     lock: File,
 }
 
-/// What a store holds.
+/// Content of a store.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Survey {
     /// Numbers of the whole pieces, ascending.
@@ -84,7 +84,7 @@ pub struct Survey {
 pub struct Damage {
     /// Number of the piece.
     pub piece: u32,
-    /// What is wrong, as "104 bytes, not the 2048 it should have".
+    /// The damage, as "104 bytes, not the 2048 it should have".
     pub problem: String,
 }
 
@@ -103,8 +103,8 @@ impl PieceStore {
     /// Opens the folder `dir` for the work described by `fingerprint`, creating it if absent.
     ///
     /// The fingerprint is a list of names and values that must all be the same for pieces to fit: the hash
-    /// of the resolved study, the program's version, the number of pieces. Files left in the making by a
-    /// killed process are removed.
+    /// of the resolved study, the program's version, the number of pieces. Unfinished files of a killed process
+    /// are removed.
     ///
     /// # Errors
     /// [`ResultsError::PiecesInUse`] if another store has the folder open, in this process or another;
@@ -121,21 +121,20 @@ impl PieceStore {
     /// Opens the folder `dir` as [`open`](Self::open) does, but together with others that do the same.
     ///
     /// Of several that open an absent folder at once, the first names the work; the others find it named,
-    /// and are refused if theirs is another. What a killed process leaves in the making stays until the
-    /// folder is removed.
+    /// and are refused if theirs is another. Unfinished files of a killed process stay until the folder is removed.
     ///
     /// # Errors
-    /// As [`open`](Self::open); [`ResultsError::PiecesInUse`] only if someone has it for himself.
+    /// As [`open`](Self::open); [`ResultsError::PiecesInUse`] only if another process has it open alone.
     pub fn open_shared(dir: &Path, fingerprint: &[(&str, &str)]) -> Result<Self, ResultsError> {
         fs::create_dir_all(dir).map_err(ResultsError::io("create the folder", dir))?;
         Self::join(dir, fingerprint, Access::Shared)
     }
 
     /// Opens the folder `dir`, which must be there, to put its pieces together. The work is that of
-    /// [`work_in`], after the caller has looked whether it is the right one.
+    /// [`work_in`], after the caller has checked that it is the right one.
     ///
-    /// A piece is whole or absent, so this is right even where no lock tells that others still write: what
-    /// they have not finished is missing from the [`survey`](Self::survey). Files in the making stay.
+    /// A piece is whole or absent, so this is right even where no lock shows that others still write: pieces that
+    /// they have not finished are missing from the [`survey`](Self::survey). Files in the making stay.
     ///
     /// # Errors
     /// As [`open`](Self::open); [`ResultsError::PiecesInUse`] also while it is open as shared, where the
@@ -162,8 +161,8 @@ impl PieceStore {
         &self.dir
     }
 
-    /// Reads every piece and says which are whole and which are damaged. A damaged one counts as missing
-    /// until it is written again.
+    /// Reads every piece and lists the whole and the damaged ones. A damaged one counts as missing until it is
+    /// written again.
     ///
     /// # Errors
     /// [`ResultsError::Io`] if the folder or a file cannot be read.
@@ -190,7 +189,7 @@ impl PieceStore {
     /// The content of piece `number`; `None` if it is not there.
     ///
     /// # Errors
-    /// [`ResultsError::DamagedPiece`] if it is not what was written, [`ResultsError::Io`] if it cannot be
+    /// [`ResultsError::DamagedPiece`] if it is not as it was written, [`ResultsError::Io`] if it cannot be
     /// read.
     pub fn read(&self, number: u32) -> Result<Option<Vec<u8>>, ResultsError> {
         let path = self.file(number);
@@ -220,7 +219,7 @@ impl PieceStore {
         self.dir.join(file_name(number))
     }
 
-    /// Leaves a line for later runs, in place of the last one. It says nothing of what the pieces are.
+    /// Leaves a line for later runs, in place of the last one. It does not describe the pieces.
     ///
     /// # Errors
     /// [`ResultsError::Io`] if it cannot be written.
@@ -240,7 +239,7 @@ impl PieceStore {
     /// [`ResultsError::Io`] if a file cannot be removed.
     pub fn remove(self) -> Result<(), ResultsError> {
         let Self { dir, lock, .. } = &self;
-        // The manifest goes last: without it what is left would look like a folder of somebody else.
+        // The manifest goes last: without it the rest would look like a folder of somebody else.
         self.remove_files(|name| {
             is_aside(name, &ALL_PARTS) || name == REMARK || number_of(name).is_some()
         })?;
@@ -304,7 +303,7 @@ impl PieceStore {
     }
 }
 
-/// What becomes of a file that has the name already.
+/// Rule for a file that has the name already.
 #[derive(Clone, Copy)]
 enum Place {
     /// It is replaced.

@@ -1,4 +1,4 @@
-//! Names and texts of others as they can be shown: what a terminal would take for a command is written out.
+//! Names and texts of others, fit to be shown: characters that a terminal would obey are written out.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -31,7 +31,7 @@ fn escaped(text: &str, stays: impl Fn(char) -> bool) -> String {
     shown
 }
 
-/// Whether a terminal does something else with it than show it.
+/// Whether a terminal obeys the letter instead of showing it.
 fn commands(letter: char) -> bool {
     letter.is_control()
         || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')

@@ -1,8 +1,8 @@
-//! Places for what is not finished yet, beside where it will go.
+//! Staging places: unfinished files and folders, beside the target that they will move to.
 //!
-//! A staging place is locked as long as its process lives, however that ends. One that is there and not locked was
-//! left by a process that was killed; the next one with the same target removes it. A file system without locks
-//! tells nothing, and then nothing is removed.
+//! A staging place is locked as long as its process lives, however that ends. One that is not locked was left by a
+//! process that was killed; the next process with the same target removes it. On a file system without locks
+//! nothing is removed.
 
 use crate::ordinary;
 use std::ffi::OsStr;
@@ -11,16 +11,16 @@ use std::io;
 use std::path::{Path, PathBuf};
 use tempfile::{NamedTempFile, TempDir};
 
-/// How the names of staging places begin; one left by a killed process does not make a folder foreign.
+/// Prefix of the names of staging places; one left by a killed process does not make a folder foreign.
 pub(crate) const STAGING: &str = ".saltus-staging-";
 
 /// The file in a staging folder that is locked.
 const ALIVE: &str = "alive";
 
-/// How often a folder is made again that somebody took for left over before it was locked.
+/// Attempts to make a folder: before it is locked, another process may take it for left over and remove it.
 const TRIES: usize = 8;
 
-/// A folder for what will go to a target. Dropping it removes it.
+/// A folder whose content will go to a target. Dropping it removes it.
 #[derive(Debug)]
 pub struct Staging {
     dir: TempDir,
@@ -28,8 +28,8 @@ pub struct Staging {
 }
 
 impl Staging {
-    /// Makes a folder in `home` for what will go to `target`, and removes what killed processes with this target left
-    /// there.
+    /// Makes a folder in `home` for the content of `target`, and removes staging places that killed processes with
+    /// this target left there.
     ///
     /// # Errors
     /// Those of the system, if `home` cannot be written.
@@ -50,7 +50,7 @@ impl Staging {
     }
 }
 
-/// A file for what will replace `target`, as readable as any file of the user.
+/// A file that will replace `target`, as readable as any file of the user.
 pub(crate) fn file(home: &Path, target: &Path) -> io::Result<NamedTempFile> {
     let prefix = prefix(target);
     remove_left(home, &prefix);
@@ -68,7 +68,7 @@ pub(crate) fn file(home: &Path, target: &Path) -> io::Result<NamedTempFile> {
     })
 }
 
-/// Locks a new file. Until then it looked like one that is left over, and may be gone: then it is made again.
+/// Locks a new file. Until then another process may take it for left over and remove it; then it is made again.
 fn locked<F: std::borrow::Borrow<File>>(file: F, path: &Path) -> io::Result<F> {
     // a file system may have no locks
     let _ = file.borrow().lock();
@@ -93,7 +93,7 @@ pub(crate) fn whole_name(target: &Path) -> PathBuf {
     }
 }
 
-/// Removes what killed processes left beside `target`.
+/// Removes staging places that killed processes left beside `target`.
 pub(crate) fn remove_left_beside(target: &Path) {
     let target = whole_name(target);
     if let Some(home) = target.parent() {
@@ -102,7 +102,7 @@ pub(crate) fn remove_left_beside(target: &Path) {
     }
 }
 
-/// One for each target: who writes beside it is none of its business.
+/// Prefix of its own for each target, so that staging places for other targets stay.
 fn prefix(target: &Path) -> String {
     let name = whole_name(target);
     let name = name.file_name().unwrap_or(OsStr::new("results"));
@@ -110,7 +110,7 @@ fn prefix(target: &Path) -> String {
     format!("{STAGING}{hash:08x}-")
 }
 
-/// Nothing depends on it, so what cannot be removed stays.
+/// Nothing depends on it, so a place that cannot be removed stays.
 fn remove_left(home: &Path, prefix: &str) {
     let Ok(entries) = fs::read_dir(home) else {
         return;

@@ -1,4 +1,4 @@
-"""NumPy's functions on expressions: what they are on objects, entry by entry, or a refusal."""
+"""NumPy's functions on expressions: entry by entry, as on objects, or a refusal."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["Entrywise", "ExpressionArray", "array_of"]
 
 
 class Entrywise:
-    """What NumPy hands its functions over to."""
+    """Mixin that takes over NumPy's functions."""
 
     __slots__ = ()
 

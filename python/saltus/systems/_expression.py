@@ -27,9 +27,9 @@ __all__ = [
     "states",
 ]
 
-#: Larger powers of a state are no models of anything.
+#: Largest power of a state: no model has larger ones.
 MAX_POWER = 64
-#: How deep a formula is printed.
+#: Depth to which a formula is printed.
 _SHOWN = 6
 
 
@@ -37,13 +37,13 @@ _SHOWN = 6
 class Expression(Entrywise):
     """A formula: sums, products and whole powers of states, with numbers and parameters.
 
-    Made by `states`, `parameters`, `Forcing` and by calculating with what they give; arrays of
+    Made by `states`, `parameters` and `Forcing`, and by calculating with them; arrays of
     expressions are NumPy arrays of objects, so that ``K @ x`` and `numpy.einsum` work. Formulas of
     parameters alone may hold any power and quotient, and `numpy.sqrt`, `numpy.exp`, `numpy.log`,
     `numpy.sin`, `numpy.cos`, `numpy.tan`, `numpy.arctan` and `abs`.
 
-    Expressions are compared with each other by identity, and have no value, so no truth value either:
-    what else is asked of them is a `saltus.FormulaError` that says what to write instead.
+    Expressions are compared with each other by identity, and have no value, so no truth value either.
+    Any other operation raises a `saltus.FormulaError` that says what to write instead.
     """
 
     __slots__ = ("changes", "of", "operation", "tag")
@@ -53,7 +53,7 @@ class Expression(Entrywise):
     ) -> None:
         self.operation = operation
         self.of = of
-        #: The number, the name, or what the expression belongs to.
+        #: The number, the name, or the owner of the expression.
         self.tag = tag
         #: Whether it changes with time.
         self.changes = changes
@@ -91,7 +91,7 @@ class Expression(Entrywise):
         return _binary("divide", other, self)  # type: ignore[no-any-return]
 
     def __pow__(self, other: ExpressionLike) -> Expression:
-        """Power; of what changes with time, a whole one from 0 to 64."""
+        """Power; of an expression that changes with time, a whole one from 0 to 64."""
         return _binary("power", self, other)  # type: ignore[no-any-return]
 
     def __rpow__(self, other: ExpressionLike) -> Expression:
@@ -107,36 +107,36 @@ class Expression(Entrywise):
         return self
 
     def __abs__(self) -> Expression:
-        """Absolute value, of what does not change with time."""
+        """Absolute value of a formula that does not change with time."""
         return self._function("absolute")
 
     # numpy.sqrt(p) and its sisters call these.
     def sqrt(self) -> Expression:
-        """Square root, of what does not change with time."""
+        """Square root of a formula that does not change with time."""
         return self._function("sqrt")
 
     def exp(self) -> Expression:
-        """Exponential, of what does not change with time."""
+        """Exponential of a formula that does not change with time."""
         return self._function("exp")
 
     def log(self) -> Expression:
-        """Natural logarithm, of what does not change with time."""
+        """Natural logarithm of a formula that does not change with time."""
         return self._function("log")
 
     def sin(self) -> Expression:
-        """Sine, of what does not change with time."""
+        """Sine of a formula that does not change with time."""
         return self._function("sin")
 
     def cos(self) -> Expression:
-        """Cosine, of what does not change with time."""
+        """Cosine of a formula that does not change with time."""
         return self._function("cos")
 
     def tan(self) -> Expression:
-        """Tangent, of what does not change with time."""
+        """Tangent of a formula that does not change with time."""
         return self._function("tan")
 
     def arctan(self) -> Expression:
-        """Inverse tangent, of what does not change with time."""
+        """Inverse tangent of a formula that does not change with time."""
         return self._function("arctan")
 
     def conjugate(self) -> Expression:
@@ -159,7 +159,7 @@ class Expression(Entrywise):
     if not TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Any:
-            """Refuse what NumPy calls for a function of each entry of an array."""
+            """Refuse a function that NumPy calls for each entry of an array."""
             if not isinstance(getattr(np, name, None), np.ufunc):
                 raise AttributeError(f"an expression has no {name}")
             return refusing(name).__get__(self)
@@ -169,7 +169,7 @@ class Expression(Entrywise):
         return _shown(self, _SHOWN)
 
 
-#: What may stand in a formula.
+#: Entries of a formula.
 ExpressionLike: TypeAlias = Expression | float | np.floating[Any] | np.integer[Any]
 
 

@@ -43,7 +43,7 @@ class Taylor:
     order : int, optional
         Order of the series, 4 to 30; by default the one that suits the tolerance.
     instructions : {"best", "avx2", "baseline"}
-        What series are computed with. Results differ by rounding between "baseline" and the others;
+        Instruction set for the series. Results differ by rounding between "baseline" and the others;
         fix it for the same bits on other machines.
     """
 
@@ -67,7 +67,7 @@ class RungeKutta4:
 
 @dataclass(frozen=True)
 class Options:
-    """How to integrate, as the native module reads it."""
+    """Settings of the integration, as the native module reads them."""
 
     method: Taylor | RungeKutta4
     max_switches: int
@@ -99,11 +99,11 @@ class Switches:
     Attributes
     ----------
     member : ndarray of int, shape (switches,)
-        Which member, as an index into the flattened leading axes of the starts.
+        The member, as an index into the flattened leading axes of the starts.
     time : ndarray of float, shape (switches,)
-        When, since the start of the run.
+    Time since the start of the run.
     unit : ndarray of int, shape (switches,)
-        Which unit.
+        The unit that switches.
     source, target : ndarray of int, shape (switches,)
         The mode left and the mode entered.
     state : ndarray of float, shape (switches, states)
@@ -118,7 +118,7 @@ class Switches:
     state: NDArray[np.float64]
 
     def __len__(self) -> int:
-        """How many there are."""
+        """Number of switches."""
         return len(self.time)
 
     def of(self, member: int) -> Switches:
@@ -145,11 +145,11 @@ class Trajectories:
     modes : ndarray of int, shape (..., samples, units)
         The mode of each unit.
     time : ndarray of float, shape (..., samples)
-        When, since the start of the run.
+    Time since the start of the run.
     period : ndarray of float, shape (...)
         Period of the forcing, or the interval.
     end : ndarray of float, shape (..., states)
-        Where each trajectory ended: at phase 0 of the forcing, if it completed.
+        Last state of each trajectory: at phase 0 of the forcing, if it completed.
     end_modes : ndarray of int, shape (..., units)
         The modes there.
     periods : ndarray of int, shape (...)
@@ -161,7 +161,7 @@ class Trajectories:
     reason : ndarray of str, shape (...)
         The same as a sentence, with the time.
     switches : Switches
-        What switched, and when.
+        The switches of all members.
     """
 
     samples: NDArray[np.float64]
@@ -256,13 +256,13 @@ def integrate(
 ) -> Trajectories:
     """Run many members of a system and keep their samples and switches.
 
-    Each member has its own start and parameters. What it gives does not depend on the others, nor on
+    Each member has its own start and parameters. Its trajectory does not depend on the others, nor on
     the number of threads, to the bit.
 
     Parameters
     ----------
     system : System
-        What to run.
+        The system.
     starts : array_like of float, shape (..., states)
         The states at the start, at phase 0 of the forcing.
     periods : int
@@ -286,9 +286,9 @@ def integrate(
         Switches in one period before a member ends as "chattering"; without end at one instant it does
         so too, and its `reason` says which.
     threads : int, optional
-        How many; 0 for as many as the machine has.
+        Number of threads; 0 for as many as the machine has.
     progress : bool or callable, optional
-        ``None``: a bar if somebody looks; or a function of (what, done, total).
+        ``None``: a bar in a terminal or notebook; or a function of (what, done, total).
 
     Returns
     -------

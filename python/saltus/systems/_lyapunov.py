@@ -39,11 +39,11 @@ class Exponents:
     on_cycle : ndarray of bool, shape (...)
         Whether the motion has come to a cycle; its exponents are those of the multipliers then.
     dimension : ndarray of float, shape (...)
-        Kaplan-Yorke dimension; NaN where the record does not tell it.
+        Kaplan-Yorke dimension; NaN where the record does not give it.
     dimension_error : ndarray of float, shape (...)
         Its standard error.
     status, reason : ndarray of str, shape (...)
-        How each trajectory ended, as a word and as a sentence; "completed" is well.
+        Ending of each trajectory, as a word and as a sentence; "completed" if it ran to its end.
     """
 
     exponents: NDArray[np.float64]
@@ -73,8 +73,8 @@ def lyapunov(
     """Lyapunov exponents of many members, by tangent columns kept orthonormal.
 
     Benettin, Galgani, Giorgilli & Strelcyn, Meccanica 15 (1980) 9. A switch multiplies the columns by
-    its saltation matrix. Columns that part by more than rounding allows within a period are kept apart
-    as often as it takes.
+    its saltation matrix. Where columns become parallel to rounding within a period, they are made
+    orthonormal more often.
 
     Parameters
     ----------
@@ -85,13 +85,13 @@ def lyapunov(
     periods : int
         Periods of the record.
     count : int, optional
-        How many exponents; by default all.
+        Number of exponents; by default all.
     transient : int, optional
         Periods before the record begins, in which the columns find their directions.
     parameters, modes, max_switches, threads, progress
         As for `integrate`.
     method : Taylor, optional
-        How to integrate.
+        The method of integration.
 
     Returns
     -------
@@ -116,7 +116,7 @@ def lyapunov(
     whole_record = status == "completed"
 
     def told(values: NDArray[np.float64], *last: int) -> NDArray[np.float64]:
-        """NaN where there is no record of the whole time to tell it from."""
+        """NaN where a trajectory ended before its record was complete."""
         seen = whole_record.reshape((*shape, *(1 for _ in last)))
         return np.where(seen, values.reshape((*shape, *last)), np.nan)
 

@@ -36,19 +36,19 @@ class Orbit:
     multipliers : ndarray of complex, shape (states,)
         Floquet multipliers, by falling modulus.
     multiplier_errors : ndarray of float, shape (states,)
-        How far each may be off: `tolerance` of the derivative times the condition of the eigenvalue.
+        Error bound of each: `tolerance` of the derivative times the condition of the eigenvalue.
     stability : {"stable", "unstable", "neutral"}
         Whether all multipliers lie inside the unit circle, or some outside, or none outside and some
-        so near to it that rounding says on which side.
+        so near to it that rounding decides their side.
     in_family : bool
         Whether a multiplier is 1 to its error: other orbits lie beside this one, as many as a conserved
         quantity has values.
     monodromy : ndarray of float, shape (states, states)
-        Derivative of the stroboscopic map once around, at the first place.
+        Derivative of the stroboscopic map once around, at the first state.
     switch_time : ndarray of float, shape (switches,)
-        When it switches, in periods of the forcing since the first place.
+        Time of each switch, in periods of the forcing since the first state.
     switch_unit, switch_source, switch_target : ndarray of int, shape (switches,)
-        Which unit, the mode left, and the mode entered.
+        The unit, the mode left, and the mode entered.
     residual : float
         Largest component of P(x_i) - x_(i+1).
     iterations : int
@@ -98,8 +98,8 @@ def find_orbit(
     start : array_like of float, shape (states,) or (period, states)
         States near those of the orbit at phase 0 of the forcing, at one or at all of its periods.
     period : int, optional
-        How many periods of the forcing; by default as many as `start` has. The orbit found has the
-        shortest: a start of four places that leads to an orbit of two gives two.
+        Number of periods of the forcing; by default as many as `start` has. The orbit found has the
+        shortest: a start of four states that leads to an orbit of period two gives two.
     parameters : mapping of str to array_like, optional
         Values of all parameters.
     modes : array_like of int, shape (units,) or (period, units), optional
@@ -109,7 +109,7 @@ def find_orbit(
     iterations : int, optional
         Newton steps at most.
     method : Taylor, optional
-        How to integrate.
+        The method of integration.
     max_switches, threads : int, optional
         As for `integrate`.
 

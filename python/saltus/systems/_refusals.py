@@ -1,4 +1,4 @@
-"""What is no formula, and what to write instead."""
+"""Operations that make no formula, and what to write instead."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _TWO = "let two further states s and c stand for {} and {}, with the rates c * u
 _ONE = "let a further state y stand for it, with the rate {} * u'"
 _ROOT = "let two further states stand for it, r = {} with the rate {} * u', and y with the rate {} * u'"
 
-#: The states whose rates are known where the function of a state u is none; u' is the rate of u.
+#: States to take instead of a function of a state u: their rates are formulas; u' is the rate of u.
 _STATES = {
     "exp": _ONE.format("y"),
     "expm1": _ONE.format("(1 + y)"),
@@ -64,7 +64,7 @@ _SWITCHING = {
     "sign",
     "signbit",
 }
-#: Those that ask how often something fits.
+#: Operations that ask how often something fits.
 _ROUNDING = {
     "around",
     "ceil",
@@ -120,7 +120,7 @@ _OPERATORS = {
     "rshift": "right_shift",
     "xor": "bitwise_xor",
 }
-#: Those that have no mirror image.
+#: Operators that have no mirror image.
 _ALONE = {
     "ceil": "ceil",
     "floor": "floor",
@@ -132,8 +132,8 @@ _ALONE = {
     "round": "round",
     "trunc": "trunc",
 }
-#: What Python asks of numbers and lists, as it is written. Not "getitem": NumPy would take an expression
-#: for a sequence then, and say so where it needs a number.
+#: Methods that Python asks of numbers and lists, as they are written. "getitem" is none of them: NumPy
+#: would take an expression for a sequence then, and say so where it needs a number.
 _VALUES = {
     "bool": "bool({0})",
     "complex": "complex({0})",
@@ -146,7 +146,7 @@ _VALUES = {
 
 
 def refuse_others(expression: type) -> type:
-    """Give a class of expressions the operators that make no formula, which say so."""
+    """Give a class of expressions the operators that make no formula; they raise an error."""
     for name, known_as in (_OPERATORS | _ALONE).items():
         setattr(expression, f"__{name}__", refusing(known_as))
     for name, known_as in _OPERATORS.items():
@@ -157,7 +157,7 @@ def refuse_others(expression: type) -> type:
 
 
 def refusing(name: str) -> Callable[..., Any]:
-    """Give a function that refuses whatever it is given as `no_formula` does."""
+    """Give a function that refuses any argument, as `no_formula` does."""
 
     def refuse(*of: Any) -> Any:
         raise no_formula(name, of)
@@ -183,12 +183,12 @@ def _valueless(written: str) -> Callable[..., Any]:
 
 
 def is_refused(name: str) -> bool:
-    """Whether a function of that name is refused whatever it is given."""
+    """Whether a function of that name is refused for any argument."""
     return name in _SWITCHING or name in _ROUNDING
 
 
 def no_formula(name: str, of: Sequence[Any]) -> FormulaError:
-    """Say that an operation or function, by the name that NumPy has for it, is no formula of these."""
+    """Give the error of an operation, by NumPy's name of it, that makes no formula of these."""
     what = _call(name, of)
     if not _changes(of):
         return FormulaError(

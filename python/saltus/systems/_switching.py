@@ -1,4 +1,4 @@
-"""What drives a system and what switches in it."""
+"""Forcing and switches of a system."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Forcing:
 
 @dataclass(frozen=True, eq=False)
 class Transition:
-    """What ends a mode of a unit, and what happens then; made by `Unit.transition`."""
+    """The end of a mode of a unit: guard, next mode and resets; made by `Unit.transition`."""
 
     unit: Unit
     source: str
@@ -60,7 +60,7 @@ class Transition:
 
 
 class Unit:
-    """Something that switches on its own, such as one contact: an automaton with modes.
+    """A part that switches on its own, such as one contact: an automaton with modes.
 
     Parameters
     ----------
@@ -139,9 +139,9 @@ class Unit:
             States that jump, and where to, from the values of all states just before. Both may be
             arrays.
         vanishing : mapping or pairs of (guards, multiplicities), optional
-            Guards that are zero after the switch by construction, and how many of their derivatives,
-            themselves included. It need not be said: zeros are found, to rounding, where they are. Said,
-            it also holds where rounding hides one.
+            Guards that are zero after the switch by construction, and the number of their derivatives
+            that are zero, themselves included. It may be left out: such zeros are found, to rounding. If
+            given, it also holds where rounding hides one.
 
         Returns
         -------

@@ -1,4 +1,4 @@
-"""A system: states, their rates, and what switches."""
+"""A system: states, their rates, and switches."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ __all__ = ["Definition", "System"]
 
 @dataclass(frozen=True)
 class Definition:
-    """A system as flat lists: what the native module reads, and what is sent to other processes."""
+    """A system as flat lists, as the native module reads it and as it is sent to other processes."""
 
-    #: Name, places of what it is made of, number or index; each of earlier ones.
+    #: Name, places of its operands among earlier ones, number or index.
     operations: tuple[tuple[str, list[int], float], ...]
     rates: tuple[int, ...]
     forced: bool
@@ -65,11 +65,11 @@ class System:
     rates : array_like of Expression or float
         The rate of each, in the same arrangement.
     forcing : Forcing, optional
-        What drives it. It is sampled once in each period, at phase 0.
+        The forcing. The system is sampled once in each period, at phase 0.
     interval : float or Expression, optional
         Sampling interval of a system without forcing; a period is this long then.
     transitions : iterable of Transition, optional
-        What ends each mode of its units.
+        Transitions between the modes of its units.
 
     Attributes
     ----------
@@ -192,7 +192,7 @@ def _define(
         modes=tuple(unit.modes for unit in listing.known_units),
         parameters=listing.parameters,
     )
-    # q[0] is of q
+    # q[0] belongs to q
     named = {name.partition("[")[0] for name in definition.states}
     both = [name for name in definition.parameters if name in named]
     if both:
@@ -229,7 +229,7 @@ class _Listing:
         self._places: dict[Expression, int] = {}
 
     def place(self, root: Expression) -> int:
-        """The place of an expression on the list, where it is put after what it is made of."""
+        """The place of an expression on the list; it is added after its operands if it is not there."""
         waiting = [root]
         while waiting:
             part = waiting[-1]
@@ -261,7 +261,7 @@ class _Listing:
         return 0.0
 
     def _foreign(self, what: str, other: Forcing) -> str:
-        """Why a forcing in a formula is not that of the system."""
+        """Error of a forcing in a formula that is not that of the system."""
         if self._forcing is None:
             return (
                 f"a formula holds the {what} of {other!r}, and the system has no forcing: "

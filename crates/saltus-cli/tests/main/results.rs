@@ -1,4 +1,4 @@
-//! What can be done with a result that is there: its works cited, the same asked again.
+//! Commands on a saved result: its works cited, the same asked again.
 
 use crate::common::underway::small;
 use crate::common::{Desk, files, json, program, saltus};

@@ -95,7 +95,7 @@ impl AttractorsTable {
         self.parameter.is_some().then(|| self.axis())
     }
 
-    /// What the table says of a sweep.
+    /// The keys of a sweep, given or not.
     pub(crate) fn axis(&self) -> AxisTable {
         AxisTable {
             parameter: self.parameter.clone().unwrap_or_default(),

@@ -39,7 +39,7 @@ pub struct AxisTable {
     pub values: Option<Vec<f64>>,
 }
 
-/// For a table that must give its values: in one of two ways.
+/// Schema of a table that must give its values in one of two ways.
 pub(super) fn either_way() -> Value {
     json!([{ "required": ["from", "to", "count"] }, { "required": ["values"] }])
 }
@@ -78,7 +78,7 @@ impl AxisTable {
         last.or(self.to).unwrap_or(f64::NAN)
     }
 
-    /// How many values there are.
+    /// Number of values.
     pub fn count(&self) -> usize {
         let listed = self.values.as_ref().map(Vec::len);
         listed.unwrap_or(self.count.unwrap_or(0) as usize)

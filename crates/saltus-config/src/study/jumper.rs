@@ -33,7 +33,7 @@ pub struct JumperTable {
 
 impl JumperTable {
     /// Most people, as the physics has it.
-    pub const MOST: usize = 400;
+    pub(crate) const MOST: usize = 400;
 
     pub(super) fn paper() -> Self {
         Self {

@@ -150,7 +150,7 @@ impl Study {
             .expect("tables, lists, words and numbers can always be written as JSON")
     }
 
-    /// What a result is known by: SHA-256 of [`Study::to_toml`], in hexadecimal.
+    /// Identity of the study in results: SHA-256 of [`Study::to_toml`], in hexadecimal.
     ///
     /// Equal studies have equal hashes however they were written. A version of saltus that knows more keys may
     /// write more of them, and then has other hashes.

@@ -37,11 +37,11 @@ pub struct ModeLists {
 
 impl Modes {
     /// Most transverse terms, as the physics has it.
-    pub const MAX_TRANSVERSE: usize = 400;
+    pub(crate) const MAX_TRANSVERSE: usize = 400;
     /// Most terms of either in-plane displacement.
-    pub const MAX_IN_PLANE: usize = 2048;
+    pub(crate) const MAX_IN_PLANE: usize = 2048;
     /// Largest half-wave number of a term in a list.
-    pub const MAX_HALF_WAVES: u32 = 1000;
+    pub(crate) const MAX_HALF_WAVES: u32 = 1000;
 }
 
 /// `plate.modes` as written.

@@ -2,7 +2,7 @@
 
 use saltus_config::{Study, StudyError, StudyErrorKind, keys, parse};
 
-/// Where zero is a legal value.
+/// Keys for which zero is a legal value.
 const ZERO_IS_FINE: &[&str] = &[
     "attractors.from",
     "attractors.plate",
@@ -42,7 +42,7 @@ const ZERO_IS_FINE: &[&str] = &[
     "sweep.transient",
 ];
 
-/// Where a negative value is legal.
+/// Keys for which a negative value is legal.
 const NEGATIVE_IS_FINE: &[&str] = &[
     "basins.x.from",
     "basins.x.to",
@@ -52,7 +52,7 @@ const NEGATIVE_IS_FINE: &[&str] = &[
     "start.z",
 ];
 
-/// What must be there; everything else has a documented default.
+/// Keys that must be there; all others have a documented default.
 const REQUIRED: &[&str] = &[
     "attractors.count",
     "attractors.from",

@@ -1,4 +1,4 @@
-//! Where `[continue]` and its curves begin, and what `[attractors]` sweeps.
+//! Beginnings of `[continue]` and its curves, and the sweep of `[attractors]`.
 
 use saltus_config::{AttractorsTable, Study, paper_template, parse};
 

@@ -14,7 +14,7 @@ pub(crate) enum Value {
 /// A sum of quantities.
 pub(crate) type Terms = Vec<(Coefficient, Value)>;
 
-/// Operations of the engine; `out` is the place of what they make.
+/// Operations of the engine; `out` is the place of the result.
 #[derive(Clone, Debug)]
 pub(crate) enum Step {
     Linear {
@@ -32,7 +32,7 @@ pub(crate) enum Step {
     Products(Vec<(usize, Value, Value)>),
 }
 
-/// What ends a mode: as [`Transition`], of quantities or of whatever else names them.
+/// A transition out of a mode: as [`Transition`], of quantities or of places that stand for them.
 #[derive(Clone, Debug)]
 pub(crate) struct Leave<V = Value> {
     pub(crate) guard: V,
@@ -42,7 +42,7 @@ pub(crate) struct Leave<V = Value> {
     pub(crate) vanishing: Vec<(V, u8)>,
 }
 
-/// How often the system is looked at.
+/// Clock of the samples.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Clock<C = Coefficient> {
     /// Once in each period of the forcing, at this angular frequency.
@@ -56,17 +56,17 @@ pub(crate) struct Blueprint {
     pub(crate) coefficients: Coefficients,
     pub(crate) clock: Clock,
     pub(crate) steps: Vec<Step>,
-    /// How many quantities the steps make.
+    /// Number of quantities that the steps make.
     pub(crate) made: usize,
     /// The rate of each state.
     pub(crate) rates: Vec<Value>,
     /// The scale of each state, where one is given.
     pub(crate) scales: Vec<Option<Coefficient>>,
-    /// What ends each mode of each unit.
+    /// Transitions out of each mode of each unit.
     pub(crate) units: Vec<Vec<Vec<Leave>>>,
 }
 
-/// Why there is no system at some parameters.
+/// Reasons why there is no system at some parameters.
 #[derive(Clone, Debug, thiserror::Error)]
 pub(crate) enum Unbuildable {
     #[error("{what} is {value} at the parameters {parameters:?}: a {right} number is needed")]
@@ -168,7 +168,7 @@ impl Blueprint {
     }
 }
 
-/// The engine's nodes of what has been made.
+/// The engine's nodes of the quantities made so far.
 struct Nodes(Vec<Node>);
 
 impl Nodes {

@@ -17,7 +17,7 @@ enum Rule {
     Binary(Binary, Coefficient, Coefficient),
 }
 
-/// All numbers of a program. Equal formulas are kept once, and what holds no parameter is a number at once.
+/// All numbers of a program. Equal formulas are kept once, and a formula without parameters is a number at once.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Coefficients {
     rules: Vec<Rule>,

@@ -16,7 +16,7 @@ use super::members::Members;
 use crate::error::{of_computation, of_definition};
 use crate::running::{Progress, run as run_beside};
 
-/// What is to be kept.
+/// Length of the runs, and the samples to keep.
 pub(crate) struct Plan {
     pub(crate) periods: u64,
     /// Periods before, of which nothing is kept.
@@ -47,7 +47,7 @@ pub(crate) struct Trajectories {
     /// Periods completed, of each member.
     periods: Py<PyArray1<u64>>,
     steps: Py<PyArray1<u64>>,
-    /// Word and sentence for how each ended.
+    /// Ending of each, as a word and a sentence.
     status: Vec<(String, String)>,
     /// Of each switch: its member,
     switch_member: Py<PyArray1<u64>>,
@@ -189,7 +189,7 @@ fn collect(
     })
 }
 
-/// One trajectory and what is kept of it.
+/// One trajectory and its samples.
 struct Member<'a> {
     blueprint: &'a Blueprint,
     first: &'a System,

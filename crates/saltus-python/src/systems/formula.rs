@@ -68,7 +68,7 @@ impl Binary {
             Self::Subtract => a - b,
             Self::Multiply => a * b,
             Self::Divide => a / b,
-            // Small whole powers as products: what `x * x` gives elsewhere.
+            // Small whole powers as products, as `x * x` elsewhere.
             Self::Power if b.fract() == 0.0 && b.abs() <= 64.0 => a.powi(b as i32),
             Self::Power => a.powf(b),
         }
@@ -78,10 +78,10 @@ impl Binary {
 impl<'a, 'py> FromPyObject<'a, 'py> for Op {
     type Error = PyErr;
 
-    /// From (name, places of what it is made of, a number or an index).
+    /// From (name, places of its operands, a number or an index).
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
         let (name, of, value): (String, Vec<usize>, f64) = object.extract()?;
-        // what is no whole number names nothing
+        // no index is other than a whole number
         let index = match value as usize {
             index if index as f64 == value => index,
             _ => usize::MAX,

@@ -1,4 +1,4 @@
-//! What Python hands over: the definition of a system, and how it is to be integrated.
+//! Input from Python: the definition of a system, and the settings of the integration.
 
 use pyo3::prelude::*;
 use saltus_hybrid::{Instructions, Method, Options};
@@ -7,14 +7,14 @@ use super::blueprint::{Clock, Leave};
 use super::formula::Op;
 use crate::error::of_definition;
 
-/// A mode and a unit are told in one byte each.
+/// Modes and units are numbers of one byte each.
 const MAX_MODES: usize = 256;
 const MAX_UNITS: usize = 256;
 
 /// A system as formulas; every `usize` is the place of an operation.
 pub(crate) struct Definition {
     pub(crate) ops: Vec<Op>,
-    /// How many parameters there are.
+    /// Number of parameters.
     pub(crate) parameters: usize,
     pub(crate) rates: Vec<usize>,
     /// The scale of each state, where one is given.
@@ -23,7 +23,7 @@ pub(crate) struct Definition {
     pub(crate) units: Vec<Vec<Vec<Leave<usize>>>>,
 }
 
-/// Why lists are no definition: they were not made by this version of saltus, or were altered.
+/// Fault of lists that are no definition: they were not made by this version of saltus, or were altered.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("no system: {what} {index} is named, and there are {count} at that point")]
 pub(crate) struct Astray {
@@ -41,7 +41,7 @@ fn within(what: &'static str, index: usize, count: usize) -> Result<(), Astray> 
 }
 
 impl Definition {
-    /// Whether everything that is named is there, operations only after what they read.
+    /// Whether everything that is named is there, operations only after those that they read.
     pub(crate) fn check(&self) -> Result<(), Astray> {
         within("state", 0, self.rates.len())?;
         within("scale", self.scales.len(), self.rates.len() + 1)?;
@@ -99,7 +99,7 @@ impl Definition {
         named
     }
 
-    /// How often each operation is read.
+    /// Number of times that each operation is read.
     pub(crate) fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.ops.len()];
         let read = self.ops.iter().flat_map(Op::reads).chain(self.named());

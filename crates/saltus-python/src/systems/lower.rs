@@ -11,7 +11,7 @@ use super::coefficients::{Coefficient, Coefficients};
 use super::formula::{Binary, Op, Unary};
 use super::input::{Astray, Definition};
 
-/// What an operation amounts to.
+/// An operation in the form that later operations build on.
 #[derive(Clone, Debug)]
 enum Form {
     /// A sum; without terms, a number.
@@ -26,7 +26,7 @@ enum Form {
     },
 }
 
-/// An operation of the program, as it is found again.
+/// An operation of the program, by which equal ones are recognised.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 enum Made {
     Linear(Option<Coefficient>, Terms),
@@ -34,7 +34,7 @@ enum Made {
     Product(Value, Value),
 }
 
-/// Why formulas are no program.
+/// Reasons why formulas are no program.
 #[derive(Clone, Debug, thiserror::Error)]
 pub(crate) enum NoProgram {
     #[error(
@@ -99,12 +99,12 @@ pub(crate) fn lower(definition: &Definition) -> Result<Blueprint, NoProgram> {
 
 struct Lowering {
     states: usize,
-    /// How often each operation is read.
+    /// Number of times that each operation is read.
     uses: Vec<usize>,
     coefficients: Coefficients,
     forms: Vec<Form>,
     made: Vec<Made>,
-    /// How many products each quantity is from the states.
+    /// Number of products between each quantity and the states.
     levels: Vec<usize>,
     known: HashMap<Made, Value>,
 }
@@ -250,7 +250,7 @@ impl Lowering {
         }
     }
 
-    /// A sum divided by a number for each mode: times what is one over it.
+    /// A sum divided by a number for each mode: times its reciprocal.
     fn divided_by_mode(&mut self, a: Form, by: Form) -> Result<Form, NoProgram> {
         let one = self.coefficients.number(1.0);
         match self.elementwise(Binary::Divide, &number(one), &by) {
@@ -485,7 +485,7 @@ impl Lowering {
     }
 }
 
-/// What stands where a form has been taken away.
+/// Placeholder of a form that has been taken away.
 fn empty() -> Form {
     Form::Sum {
         constant: None,

@@ -12,7 +12,7 @@ use super::members::Members;
 use crate::error::of_computation;
 use crate::running::{Progress, run};
 
-/// What is looked for.
+/// Period of the orbit, and limits of Newton's method.
 pub(crate) struct Search {
     pub(crate) period: usize,
     pub(crate) tolerance: f64,

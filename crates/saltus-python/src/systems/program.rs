@@ -37,7 +37,7 @@ impl Program {
 
 #[pymethods]
 impl Program {
-    /// From operations in which each reads earlier ones, and the places of what they make.
+    /// From operations in which each reads earlier ones, and the places of rates, units and clock among them.
     #[new]
     #[pyo3(signature = (*, operations, parameters, rates, forced, clock, units, scales=Vec::new()))]
     fn new(
@@ -68,7 +68,7 @@ impl Program {
         })
     }
 
-    /// How many quantities it computes beside its states.
+    /// Number of quantities that it computes beside its states.
     #[getter]
     fn quantities(&self) -> usize {
         self.blueprint.made

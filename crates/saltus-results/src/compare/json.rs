@@ -13,7 +13,7 @@ pub(super) fn differences(first: &Path, second: &Path) -> Result<Vec<Difference>
     Ok(values(&read(first)?, &read(second)?))
 }
 
-/// What differs between two values in memory.
+/// Differences between two values in memory.
 pub(super) fn values(first: &Value, second: &Value) -> Vec<Difference> {
     let mut all = Difference::new("");
     walk(&mut all, &mut String::new(), first, second);

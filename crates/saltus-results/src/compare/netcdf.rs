@@ -6,7 +6,7 @@ use hdf5_reader::{Attribute, Dataset, H5Type, Hdf5File, OpenOptions};
 use std::fs;
 use std::path::Path;
 
-/// Attributes by which the format ties arrays together; what they say is in the shapes.
+/// Attributes by which the format ties arrays together; the shapes say the same.
 const TIES: [&str; 5] = [
     "CLASS",
     "NAME",

@@ -1,17 +1,17 @@
-//! What differs within a part of a file, gathered value by value.
+//! Differences within a part of a file, gathered value by value.
 
 use serde::Serialize;
 use std::fmt;
 
-/// What differs in one part of a file: a table, a report, or a variable of a dataset.
+/// Differences in one part of a file: a table, a report, or a variable of a dataset.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Difference {
     /// The variable; empty if the file has one part only.
     pub part: String,
-    /// How many values were compared.
+    /// Number of values compared.
     pub compared: u64,
-    /// How many of them differ.
+    /// Number of them that differ.
     pub differing: u64,
     /// The largest |b − a| of two numbers, if numbers differ.
     pub absolute: Option<Largest>,
@@ -27,7 +27,7 @@ pub struct Difference {
 pub struct Largest {
     /// Its size.
     pub difference: f64,
-    /// Where it is, as "column `z`, row 17".
+    /// Its place, as "column `z`, row 17".
     pub place: String,
     /// The number in the first result.
     pub first: f64,
@@ -39,7 +39,7 @@ pub struct Largest {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Mismatch {
-    /// Where they are.
+    /// Their place.
     pub place: String,
     /// The value in the first result, shortened if it is long.
     pub first: String,

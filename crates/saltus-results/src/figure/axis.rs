@@ -9,7 +9,7 @@ use kuva::render::layout::TickFormat;
 use kuva::render::render_utils::compute_tick_step;
 use std::sync::Arc;
 
-/// What an axis shows and between which limits.
+/// An axis: its label, limits and whether it shows decades.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     pub(crate) label: String,
@@ -134,7 +134,7 @@ impl Scale {
         };
         let widen = pad * (high - low);
         let (mut low, mut high) = (low - widen, high + widen);
-        // Ticks stand at whole decades: fewer than two of them tell nothing.
+        // Ticks stand at whole decades: fewer than two of them say nothing.
         if high.floor() - low.ceil() < 1.0 {
             (low, high) = (low.floor(), high.ceil().max(low.floor() + 1.0));
         }
@@ -199,7 +199,7 @@ impl Scale {
         }
     }
 
-    /// How kuva must write the ticks.
+    /// Format in which kuva must write the ticks.
     pub(crate) fn tick_format(&self) -> TickFormat {
         let scale = self.clone();
         TickFormat::Custom(Arc::new(move |units| scale.tick(units)))
@@ -237,7 +237,7 @@ impl Scale {
         }
     }
 
-    /// Where `value` lies between the limits, as a share: 0 is `low`, 1 is `high`.
+    /// Position of `value` between the limits, as a share: 0 is `low`, 1 is `high`.
     pub(crate) fn share(&self, value: f64) -> Option<f64> {
         self.units(value)
             .map(|units| (units - self.low) / (self.high - self.low))

@@ -1,4 +1,4 @@
-//! The colour bar at the right of a map: which colour stands for which value.
+//! The colour bar at the right of a map: the values that its colours stand for.
 
 use super::axis::Scale;
 use super::colour::Colour;

@@ -4,7 +4,7 @@ use super::colour::Colour;
 use super::ink::{Ink, Step};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// What happens at a special point of a branch, or along a curve in a plane of two parameters.
+/// Kind of a special point of a branch, or of a curve in a plane of two parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Bifurcation {

@@ -1,4 +1,4 @@
-//! Branches of periodic orbits over a parameter: what brute force sees and what it cannot.
+//! Branches of periodic orbits over a parameter: stable ones, which brute force finds, and unstable ones.
 
 use super::axis::Axis;
 use super::bifurcation::Bifurcation;
@@ -8,8 +8,8 @@ use super::parts::only;
 
 /// Branches of periodic orbits, solid where stable and dashed where not, with their special points.
 ///
-/// A cloud from brute force may lie behind them in light grey. Stable parts are drawn over unstable ones,
-/// special points over both, and their labels beside them where they hide least; a label that would touch
+/// A cloud from brute force may lie behind them in light grey. Stable parts are drawn over unstable ones and
+/// special points over both. Labels stand beside their points, where they hide least; a label that would touch
 /// another is left out.
 ///
 /// ```
@@ -81,9 +81,9 @@ impl Branches {
     /// there, and for each point of the cycle a curve of as many values. A value that is not finite breaks
     /// its curve; of lists of different length the shortest counts.
     ///
-    /// A step is solid where both of its ends are stable, so a special point that belongs to the branch
+    /// A step is solid where both of its ends are stable. So a special point that belongs to the branch
     /// ends the stable part if it counts as stable. Branches of equal label share a colour: labels that
-    /// say the period give a colour for each period.
+    /// name the period give a colour for each period.
     #[must_use]
     pub fn branch(
         mut self,

@@ -1,4 +1,4 @@
-//! Bifurcation diagrams: clouds of points that must not hide each other.
+//! Bifurcation diagrams: clouds of points, drawn so that none hides another.
 
 use super::axis::Axis;
 use super::colour::Colour;
@@ -10,7 +10,7 @@ use std::cmp::Reverse;
 /// The first series is drawn at the bottom with the largest and lightest dots, each later one
 /// smaller and on top. Where two series coincide the later shows its dot with a rim of the earlier;
 /// where only one is present its bare dot shows. Nothing is transparent, so a colour means one thing.
-/// Series that cannot coincide, such as attractors, are better told [`apart`](Self::apart).
+/// Series that cannot coincide, such as attractors, are better drawn [`apart`](Self::apart).
 #[derive(Clone, Debug)]
 pub struct Cloud {
     title: String,
@@ -70,8 +70,8 @@ impl Cloud {
         self
     }
 
-    /// Draws the series as sets of which each has points of its own: dots of one size in the order of
-    /// [`Colour::ATTRACTORS`], the series with the fewest points on top, so that a cycle shows before chaos.
+    /// Draws series that have no points in common: dots of one size in the order of [`Colour::ATTRACTORS`], the
+    /// series with the fewest points on top, so that a cycle shows before chaos.
     #[must_use]
     pub fn apart(mut self) -> Self {
         self.apart = Some(FINE);

@@ -1,4 +1,4 @@
-//! Colours that people with colour-blindness can tell apart: the palette of Okabe & Ito (2008).
+//! Colours that people with colour-blindness can distinguish: the palette of Okabe & Ito (2008).
 
 /// A solid colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,13 +48,13 @@ impl Colour {
         Self(98, 95, 140),
         Self(74, 0, 94),
     ];
-    /// A class for what the series leaves out: pale green, which shows among chaos.
+    /// A class beyond the series, such as a longer period: pale green, which shows among chaos.
     pub const OTHER: Self = Self(192, 250, 143);
-    /// A class for what has no order, such as chaos: nearly black.
+    /// A class without order, such as chaos: nearly black.
     pub const IRREGULAR: Self = Self(24, 24, 24);
-    /// A class for what could not be decided: middle grey.
+    /// A class of undecided cells: middle grey.
     pub const UNDECIDED: Self = Self(150, 150, 150);
-    /// A class for what could not be computed, rare and to be seen: red.
+    /// A class of cells that could not be computed, rare and to be seen: red.
     pub const FAILED: Self = Self(222, 30, 70);
     /// Cells of a map without a value: light grey.
     pub const MISSING: Self = Self(225, 225, 225);
@@ -137,7 +137,7 @@ mod tests {
         assert_eq!(Colour::of(&Colour::CURVES, 7), Colour::BLUE);
     }
 
-    /// What a person without one kind of cone sees, from linear RGB (Machado, Oliveira & Fernandes 2009,
+    /// Colours as a person without one kind of cone sees them, from linear RGB (Machado, Oliveira & Fernandes 2009,
     /// severity 1).
     const EYES: [[[f64; 3]; 3]; 4] = [
         [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],

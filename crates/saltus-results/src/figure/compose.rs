@@ -1,5 +1,5 @@
-//! From a figure to one kuva scene: kuva draws axes, ticks and labels, we place the panels and draw
-//! what lies between the axes.
+//! From a figure to one kuva scene: kuva draws axes, ticks and labels; panels are placed here, and the marks
+//! between the axes are ours.
 
 use super::axis::Scale;
 use super::colour::Colour;
@@ -113,7 +113,7 @@ impl<'a> Draft<'a> {
         draft
     }
 
-    /// What kuva must know to draw the axes.
+    /// Limits, ticks and labels as kuva takes them.
     fn layout(&self, (width, height): (f64, f64)) -> Layout {
         let (x_label, y_label) = (self.x.label(&self.panel.x), self.y.label(&self.panel.y));
         let x_wrap = letters(&x_label, width);
@@ -146,7 +146,7 @@ impl<'a> Draft<'a> {
             .with_width(margins.left + width + margins.right)
             .with_height(margins.top + height + margins.bottom)
             .with_force_margins(margins.left, margins.right)
-            // kuva ties the label to the ticks; in a column of panels the labels shall stand in line.
+            // kuva ties the label to the ticks; in a column of panels the labels must stand in line.
             .with_y_label_offset(self.wish.left - margins.left, 0.0)
             .with_force_margins_y(margins.top, margins.bottom);
         // Without any plot kuva draws no axes; an empty one is enough. Its clip path holds nothing.
@@ -211,7 +211,7 @@ impl<'a> Draft<'a> {
     }
 }
 
-/// Where everything lies on the sheet (px).
+/// Places on the sheet (px): margins, titles, legend.
 struct Sheet {
     columns: Vec<Margins>,
     rows: Vec<Margins>,
@@ -323,7 +323,7 @@ fn tag(index: usize) -> String {
     }
 }
 
-/// Letters per line at which kuva shall break `label` so that it fits `room` (px).
+/// Letters per line at which kuva must break `label` so that it fits `room` (px).
 fn letters(label: &str, room: f64) -> usize {
     let count = label.chars().count().max(1);
     let share = room / text::width(label, LABEL).max(1.0);

@@ -30,7 +30,7 @@ enum Style {
     Dots,
 }
 
-/// How far a curve may be off.
+/// Uncertainty of a curve.
 #[derive(Clone, Debug)]
 struct Spread {
     label: String,

@@ -1,4 +1,4 @@
-//! The area between the axes of a panel, and what of a line shows in it.
+//! The area between the axes of a panel, and the parts of a line that show in it.
 
 use super::axis::Scale;
 use super::ink::Step;

@@ -1,4 +1,4 @@
-//! Marks in pixels: what both backends draw, and how the simplest are made.
+//! Marks in pixels, as both backends draw them, and makers of the simplest ones.
 
 use super::colour::Colour;
 use super::mosaic::Mosaic;

@@ -25,7 +25,7 @@ pub(crate) fn keys(panels: &[Panel]) -> Vec<Key> {
                 if let (Some(sum), Some(more)) = (&mut known.tally, key.tally) {
                     sum.cells += more.cells;
                     sum.total += more.total;
-                    // A share of cells some of which belong to a map without classes would say little.
+                    // Where some cells belong to a map without shares, a share of all of them would say little.
                     sum.share &= more.share;
                 }
             }
@@ -119,43 +119,33 @@ fn swatch_width(key: &Key) -> f64 {
 
 fn swatch(swatch: Swatch, x: f64, y: f64, width: f64, ink: &mut Vec<Ink>) {
     let centre = (x + width / 2.0, y);
+    let across = || vec![Step::Move(x, y), Step::Line(x + width, y)];
+    let (corner, size) = ((x, y - 7.0), (width, 14.0));
     match swatch {
-        Swatch::Dot { radius, colour } => ink.push(Ink::Dot {
-            centre,
-            radius,
-            colour,
-        }),
-        Swatch::Dashed { width: pen, colour } => ink.push(Ink::Trail {
-            steps: dashed(&[Step::Move(x, y), Step::Line(x + width, y)]),
-            width: pen,
-            colour,
-        }),
+        Swatch::Dot { radius, colour } => ink.push(Ink::dot(centre, radius, colour)),
+        Swatch::Dashed { width: pen, colour } => {
+            ink.push(Ink::trail(dashed(&across()), pen, colour));
+        }
         Swatch::Band => {
             // Grey stands for the band of any curve.
             let colour = Colour::DARK;
-            ink.push(rectangle((x, y - 7.0), (width, 14.0), colour, BAND));
-            ink.push(Ink::Trail {
-                steps: vec![Step::Move(x, y), Step::Line(x + width, y)],
-                width: 1.8,
-                colour,
-            });
+            ink.push(rectangle(corner, size, colour, BAND));
+            ink.push(Ink::trail(across(), 1.8, colour));
         }
-        Swatch::Bar => ink.push(Ink::Trail {
-            steps: vec![
+        Swatch::Bar => {
+            let steps = vec![
                 Step::Move(x + 3.0, y - 6.5),
                 Step::Line(x + 9.0, y - 6.5),
                 Step::Move(x + 3.0, y + 6.5),
                 Step::Line(x + 9.0, y + 6.5),
                 Step::Move(x + 6.0, y - 6.5),
                 Step::Line(x + 6.0, y + 6.5),
-            ],
-            width: 1.3,
-            colour: Colour::DARK,
-        }),
+            ];
+            ink.push(Ink::trail(steps, 1.3, Colour::DARK));
+        }
         Swatch::Symbol(kind) => ink.extend(kind.symbol(centre)),
-        Swatch::Shade { colour } => ink.push(rectangle((x, y - 7.0), (width, 14.0), colour, SHADE)),
+        Swatch::Shade { colour } => ink.push(rectangle(corner, size, colour, SHADE)),
         Swatch::Patch { colour } => {
-            let (corner, size) = ((x, y - 7.0), (width, 14.0));
             ink.push(rectangle(corner, size, colour, 1.0));
             ink.push(outline(corner, size, 0.7));
         }
@@ -164,18 +154,9 @@ fn swatch(swatch: Swatch, x: f64, y: f64, width: f64, ink: &mut Vec<Ink>) {
             colour,
             dotted,
         } => {
-            let steps = vec![Step::Move(x, y), Step::Line(x + width, y)];
-            ink.push(Ink::Trail {
-                steps,
-                width: pen,
-                colour,
-            });
+            ink.push(Ink::trail(across(), pen, colour));
             if dotted {
-                ink.push(Ink::Dot {
-                    centre,
-                    radius: 3.6,
-                    colour,
-                });
+                ink.push(Ink::dot(centre, 3.6, colour));
             }
         }
     }

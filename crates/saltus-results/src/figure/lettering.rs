@@ -111,7 +111,7 @@ fn copy_darker(from: &Pixmap, (column, row): (u32, u32), to: &mut Pixmap, at: (i
     }
 }
 
-/// Where the bytes of a pixel begin, if the image has it.
+/// First byte of a pixel, if the image has it.
 fn index(image: &Pixmap, (x, y): (i64, i64)) -> Option<usize> {
     let inside =
         (0..i64::from(image.width())).contains(&x) && (0..i64::from(image.height())).contains(&y);
@@ -164,7 +164,7 @@ fn disc(reach: f64) -> Vec<(i64, i64)> {
         .collect()
 }
 
-/// How dark a pixel is, from 0 to 255.
+/// Darkness of a pixel, from 0 to 255.
 fn dark(image: &Pixmap, at: (i64, i64)) -> u8 {
     index(image, at).map_or(0, |start| 255 - image.data()[start])
 }

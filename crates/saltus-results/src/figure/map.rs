@@ -11,7 +11,7 @@ use super::mosaic::{Cells, Mixing, edges};
 use super::panel::{Key, Layer, Panel, Swatch, Tally};
 use super::scale::ColourScale;
 
-/// Where the cells of a map are: the values along both axes.
+/// Places of the cells of a map: the values along both axes.
 #[derive(Clone, Debug)]
 pub struct Grid {
     x: (Axis, Vec<f64>),
@@ -40,10 +40,10 @@ impl Grid {
 /// One class of a [`ClassMap`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Class {
-    /// What the class is, for the legend.
+    /// Name of the class in the legend.
     pub label: String,
     /// Its colour: one of [`Colour::SERIES`], [`Colour::OTHER`], [`Colour::IRREGULAR`],
-    /// [`Colour::UNDECIDED`] and [`Colour::FAILED`], which are made to be told apart.
+    /// [`Colour::UNDECIDED`] and [`Colour::FAILED`], any two of which are easy to distinguish.
     pub colour: Colour,
 }
 
@@ -131,7 +131,7 @@ impl ValueMap {
         self
     }
 
-    /// What the legend calls cells without a value, if there are any; "No value" by default.
+    /// Name of cells without a value in the legend, if there are any; "No value" by default.
     #[must_use]
     pub fn missing(mut self, label: impl Into<String>) -> Self {
         self.missing = label.into();

@@ -1,5 +1,5 @@
-//! Layers to marks in pixels. Every coordinate is finite and inside the frame when it leaves here, so
-//! neither backend needs a clip path, and a dot at the edge stays whole.
+//! Layers to marks in pixels. Every coordinate is finite and inside the frame, so neither backend needs a clip
+//! path, and a dot at the edge stays whole.
 
 use super::area;
 use super::colour::Colour;

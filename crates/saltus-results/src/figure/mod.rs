@@ -4,8 +4,9 @@
 //! 200 000 points needs thinning and one path instead of one element per point.
 //!
 //! Build one of [`Cloud`], [`Branches`], [`BifurcationSet`], [`Shares`], [`Portrait`], [`History`], [`Curves`],
-//! [`ClassMap`] or [`ValueMap`], hand it to [`Figure::new`], or several as panels to [`Figure::grid`]. Points that are not finite are skipped, empty series are
-//! fine, and constant data get a sensible range: a figure cannot fail, only a PNG's size can.
+//! [`ClassMap`] or [`ValueMap`] and hand it to [`Figure::new`], or several as panels to [`Figure::grid`]. Points
+//! that are not finite are skipped, empty series are fine, and constant data get a sensible range. So a figure
+//! cannot fail; a PNG can only be too large.
 //!
 //! ```
 //! use saltus_results::{Axis, Cloud, Figure};

@@ -1,13 +1,13 @@
-//! Cells as pixels. A [`Mosaic`] knows where its cells end and gives each pixel of any raster one code:
+//! Cells as pixels. A [`Mosaic`] knows the edges of its cells and gives each pixel of any raster one code:
 //! rectangles side by side would show seams, pixels cannot.
 
 use super::axis::{Axis, Scale};
 use super::colour::Colour;
 
-/// Cells in data coordinates: what a map keeps until its axes are resolved.
+/// Cells in data coordinates, as a map keeps them until its axes are resolved.
 #[derive(Clone, Debug)]
 pub(crate) struct Cells {
-    /// Where the cells end, one more than there are columns, and the same for the rows.
+    /// Edges of the cells, one more than there are columns, and the same for the rows.
     pub(crate) x: Vec<f64>,
     pub(crate) y: Vec<f64>,
     /// A code for each cell, in rows of constant y; the index of its colour.
@@ -16,7 +16,7 @@ pub(crate) struct Cells {
     pub(crate) mixing: Mixing,
 }
 
-/// What a pixel shows that several cells share.
+/// Rule for a pixel that several cells share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Mixing {
     /// The code that covers most of it: classes have no mean.
@@ -37,7 +37,7 @@ pub(crate) struct Mosaic {
     pub(crate) shown: [f64; 4],
 }
 
-/// Where cells around `values` end: halfway to the neighbours, and as far beyond the outermost, as the
+/// Edges of the cells around `values`: halfway to the neighbours, and as far beyond the outermost, as the
 /// axis measures distances. `None` unless the values ascend or descend and the axis has a place for them.
 pub(crate) fn edges(axis: &Axis, values: &[f64]) -> Option<Vec<f64>> {
     let to = |value: f64| {
@@ -207,7 +207,7 @@ impl Mosaic {
 /// For each of `count` pixels the cells it meets and how much of it each covers.
 fn overlaps(edges: &[f64], start: f64, step: f64, count: usize) -> Vec<Vec<(usize, f64)>> {
     let cells = edges.len() - 1;
-    // What a pixel shares with a cell by rounding only is left out: it would cost and not show.
+    // An overlap by rounding alone is left out: it would cost and not show.
     let hair = 1e-3 * step;
     let pixel = |number: usize| {
         let (low, high) = (

@@ -1,4 +1,4 @@
-//! Short labels beside points inside the frame: none overlaps another, and few hide a curve.
+//! Placing of short labels beside points inside the frame: none overlaps another, and few hide a curve.
 
 use super::frame::{Frame, clip, line};
 use super::ink::{Ink, Step};
@@ -62,7 +62,7 @@ fn length((from, to): ((f64, f64), (f64, f64))) -> f64 {
 /// Left, top, right and bottom (px).
 type Sides = [f64; 4];
 
-/// Distances of a label from its point (px), and half the size of what stands at the point.
+/// Distances of a label from its point (px), and half the size of the symbol at the point.
 const DISTANCES: [f64; 2] = [8.0, 14.0];
 const SYMBOL: f64 = 6.0;
 /// Directions from the point, right and down, the best first.
@@ -126,7 +126,7 @@ fn overlap(a: &Sides, b: &Sides) -> bool {
     a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]
 }
 
-/// What labels should keep away from (px).
+/// Symbols and curves that labels should keep away from (px).
 struct Obstacles {
     symbols: Vec<Sides>,
     curves: Vec<Vec<Step>>,

@@ -1,4 +1,4 @@
-//! One panel: two axes and the layers between them. The kinds of figure only fill one in.
+//! One panel as data: two axes and the layers between them. The kinds of figure only fill one in.
 
 use super::axis::{Axis, Extent};
 use super::bar::Bar;
@@ -26,7 +26,7 @@ pub struct Panel {
     pub(crate) bar: Option<Bar>,
 }
 
-/// What is drawn between the axes, from back to front.
+/// A layer between the axes; a panel draws its layers from back to front.
 #[derive(Clone, Debug)]
 pub(crate) enum Layer {
     /// Intervals of x shaded over the full height.
@@ -88,14 +88,14 @@ pub(crate) enum Layer {
     Frame,
 }
 
-/// A label and what it belongs to.
+/// A label and the points or the curve that it belongs to.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Note {
     pub(crate) text: String,
     pub(crate) place: Place,
 }
 
-/// Beside what a label may stand, in data.
+/// Places beside which a label may stand, in data.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Place {
     /// Any one of the first points that show, such as those of a cycle; the first are liked best.
@@ -109,7 +109,7 @@ pub(crate) enum Place {
 pub(crate) struct Key {
     pub(crate) label: String,
     pub(crate) swatch: Swatch,
-    /// How often it occurs, if that matters; what does not occur is not shown.
+    /// Number of its cells, if that matters; an entry without cells is not shown.
     pub(crate) tally: Option<Tally>,
 }
 
@@ -118,11 +118,11 @@ pub(crate) struct Key {
 pub(crate) struct Tally {
     pub(crate) cells: usize,
     pub(crate) total: usize,
-    /// Whether the legend says it.
+    /// Whether the legend shows the share.
     pub(crate) share: bool,
 }
 
-/// How a legend entry shows its layer.
+/// Sample of a layer in the legend.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Swatch {
     Dot {

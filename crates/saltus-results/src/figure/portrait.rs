@@ -138,7 +138,7 @@ fn swatch(colour: Colour) -> Swatch {
     }
 }
 
-/// About how many points look different, on a grid of some hundred cells a side.
+/// Number of points that look different, roughly: on a grid of some hundred cells a side.
 fn distinct(x: &[f64], y: &[f64]) -> usize {
     let unit = |values: &[f64]| {
         let finite = values.iter().copied().filter(|v| v.is_finite());

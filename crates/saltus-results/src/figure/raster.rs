@@ -45,7 +45,7 @@ fn refused(reason: &impl ToString) -> ResultsError {
     }
 }
 
-/// What kuva can draw well, as pixels.
+/// The scene as pixels, by kuva.
 pub(crate) fn pixmap(scene: &Scene, scale: f32) -> Result<Pixmap, ResultsError> {
     let bytes = RasterBackend::new()
         .with_scale(scale)
@@ -73,59 +73,18 @@ fn draw(mark: &Ink, image: &mut Pixmap, transform: Transform) -> Result<(), Resu
             steps,
             width,
             colour,
-        } => {
-            // A path of many strokes is slow to sort: a few thousand at a time are faster.
-            for part in steps
-                .chunk_by(|_, next| !matches!(next, Step::Move(..)))
-                .collect::<Vec<_>>()
-                .chunks(500)
-            {
-                if let Some(path) = path(part.iter().copied().flatten().copied()) {
-                    image.stroke_path(&path, &paint(*colour, 1.0), &pen(*width), transform, None);
-                }
-            }
-        }
+        } => trail(steps, *width, *colour, image, transform),
         Ink::Dot {
             centre,
             radius,
             colour,
-        } => {
-            let circle = PathBuilder::from_circle(centre.0 as f32, centre.1 as f32, *radius as f32);
-            let Some(circle) = circle else { return Ok(()) };
-            image.fill_path(
-                &circle,
-                &paint(*colour, 1.0),
-                FillRule::Winding,
-                transform,
-                None,
-            );
-            image.stroke_path(
-                &circle,
-                &paint(Colour(255, 255, 255), 1.0),
-                &pen(RIM),
-                transform,
-                None,
-            );
-        }
+        } => dot(*centre, *radius, *colour, image, transform),
         Ink::Mosaic(mosaic) => tile(mosaic, image, f64::from(transform.sx)),
         Ink::Area {
             corners,
             colour,
             opacity,
-        } => {
-            let mut builder = PathBuilder::new();
-            for (number, &(x, y)) in corners.iter().enumerate() {
-                match number {
-                    0 => builder.move_to(x as f32, y as f32),
-                    _ => builder.line_to(x as f32, y as f32),
-                }
-            }
-            builder.close();
-            if let Some(path) = builder.finish() {
-                let paint = paint(*colour, *opacity);
-                image.fill_path(&path, &paint, FillRule::Winding, transform, None);
-            }
-        }
+        } => area(corners, &paint(*colour, *opacity), image, transform),
         Ink::Word {
             left,
             baseline,
@@ -133,6 +92,42 @@ fn draw(mark: &Ink, image: &mut Pixmap, transform: Transform) -> Result<(), Resu
         } => lettering::word(content, TICK, (*left, *baseline), HALO, image, transform.sx)?,
     }
     Ok(())
+}
+
+fn trail(steps: &[Step], width: f64, colour: Colour, image: &mut Pixmap, transform: Transform) {
+    // A path of many strokes is slow to sort: a few thousand at a time are faster.
+    for part in steps
+        .chunk_by(|_, next| !matches!(next, Step::Move(..)))
+        .collect::<Vec<_>>()
+        .chunks(500)
+    {
+        if let Some(path) = path(part.iter().copied().flatten().copied()) {
+            image.stroke_path(&path, &paint(colour, 1.0), &pen(width), transform, None);
+        }
+    }
+}
+
+/// A disc of the colour, and its white rim.
+fn dot(centre: (f64, f64), radius: f64, colour: Colour, image: &mut Pixmap, transform: Transform) {
+    let circle = PathBuilder::from_circle(centre.0 as f32, centre.1 as f32, radius as f32);
+    let Some(circle) = circle else { return };
+    let (inside, rim) = (paint(colour, 1.0), paint(Colour(255, 255, 255), 1.0));
+    image.fill_path(&circle, &inside, FillRule::Winding, transform, None);
+    image.stroke_path(&circle, &rim, &pen(RIM), transform, None);
+}
+
+fn area(corners: &[(f64, f64)], paint: &Paint<'_>, image: &mut Pixmap, transform: Transform) {
+    let mut builder = PathBuilder::new();
+    for (number, &(x, y)) in corners.iter().enumerate() {
+        match number {
+            0 => builder.move_to(x as f32, y as f32),
+            _ => builder.line_to(x as f32, y as f32),
+        }
+    }
+    builder.close();
+    if let Some(path) = builder.finish() {
+        image.fill_path(&path, paint, FillRule::Winding, transform, None);
+    }
 }
 
 /// Gives each pixel of the image that a cell covers the colour of the cell.

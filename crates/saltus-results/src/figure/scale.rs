@@ -2,7 +2,7 @@
 
 use super::colour::Colour;
 
-/// How a value becomes a colour. They are those of d3-scale-chromatic, from the crate colorous.
+/// A scale from values to colours: those of d3-scale-chromatic, from the crate colorous.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ColourScale {

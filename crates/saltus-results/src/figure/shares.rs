@@ -18,7 +18,7 @@ pub struct Shares {
 }
 
 impl Shares {
-    /// Nothing yet, over the parameter values `at`. Limits of `y` follow the sum unless it has a range.
+    /// An empty diagram over the parameter values `at`. Limits of `y` follow the sum unless it has a range.
     pub fn new(title: impl Into<String>, x: Axis, at: impl Into<Vec<f64>>, y: Axis) -> Self {
         Self {
             title: title.into(),

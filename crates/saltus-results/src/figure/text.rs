@@ -1,4 +1,4 @@
-//! How wide a text will be, and where to break it.
+//! Width of a text, and breaking it into lines.
 
 use kuva::render::layout::{ComputedLayout, Layout};
 

@@ -1,4 +1,4 @@
-//! Fewer points, same picture: what falls on the same half pixel is drawn once.
+//! Fewer points, same picture: points on the same half pixel are drawn once.
 
 /// One vertical stroke of a point cloud (px): equal `top` and `bottom` make a dot.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,8 +77,8 @@ pub(crate) fn polyline(points: &[(f64, f64)], limit: usize) -> Vec<(f64, f64)> {
 /// Deviation from a straight step that nobody sees (px).
 const SAG: f64 = 0.08;
 
-/// Joins steps that lie on one straight line to within `sag` (px): the farthest vertex is taken that
-/// keeps all between it and the last one taken near the chord.
+/// Joins steps that lie on one straight line to within `sag` (px). Each step goes to the farthest vertex for
+/// which all vertices between lie near the chord.
 fn straightened(points: &[(f64, f64)], sag: f64) -> Vec<(f64, f64)> {
     // Longer windows gain little and cost their square.
     const WINDOW: usize = 48;

@@ -1,4 +1,4 @@
-//! The lock of a folder of pieces. It refuses early what would be of no use; nothing else depends on it.
+//! The lock of a folder of pieces. It refuses a useless run early; nothing else depends on it.
 
 use crate::ResultsError;
 use std::fs::{File, TryLockError};
@@ -8,7 +8,7 @@ use std::path::Path;
 /// The lock lives as long as the store; the file stays behind, unlocked, if a process is killed.
 pub(super) const LOCK: &str = "lock";
 
-/// Who else may have the folder open.
+/// Whether other processes may have the folder open too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Access {
     Alone,

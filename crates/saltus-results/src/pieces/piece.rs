@@ -7,7 +7,7 @@
 
 use super::work::{FORMAT, text_of};
 
-/// What is written into the header of every piece of one work, and looked for in those that come back.
+/// Mark in the header of every piece of one work, looked for in pieces that come back.
 ///
 /// A [`PieceStore`](super::PieceStore) seals what it keeps; where pieces travel in memory, their owner does.
 ///
@@ -34,7 +34,7 @@ impl Seal {
     /// The content of `bytes`, if they are piece `number` as it was made.
     ///
     /// # Errors
-    /// What is wrong with them, in words.
+    /// The damage, in words.
     pub fn open(self, number: u32, bytes: &[u8]) -> Result<&[u8], String> {
         match problem(self.0, number, bytes) {
             None => Ok(&bytes[HEADER..]),
@@ -63,7 +63,7 @@ fn header(fingerprint: u32, number: u32, content: &[u8]) -> Vec<u8> {
     header
 }
 
-/// What is wrong with the file of piece `number`, if anything.
+/// Damage of the file of piece `number`, if there is any.
 fn problem(fingerprint: u32, number: u32, bytes: &[u8]) -> Option<String> {
     let Some((header, content)) = bytes.split_at_checked(HEADER) else {
         return Some(format!("{} bytes, less than its header", bytes.len()));

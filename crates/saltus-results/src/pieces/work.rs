@@ -1,17 +1,17 @@
-//! The manifest of a folder of pieces: to which work they belong.
+//! The manifest of a folder of pieces: the work to which they belong.
 
 use crate::shown::printable;
 use crate::{ResultsError, ordinary};
 use std::io;
 use std::path::Path;
 
-/// Name of the file that says which work the pieces belong to.
+/// Name of the file that describes the work of the pieces.
 pub const MANIFEST: &str = "saltus-pieces.json";
 
 /// Version of the format; pieces of another version are not read.
 pub(super) const FORMAT: u32 = 1;
 
-/// Names and values that say to which work the pieces in `dir` belong, as given at its first opening.
+/// Names and values that describe the work of the pieces in `dir`, as given at its first opening.
 ///
 /// # Errors
 /// [`ResultsError::AbsentPieces`] if `dir` is no folder of pieces, [`ResultsError::ForeignPieces`] if its manifest
@@ -67,7 +67,7 @@ fn entries(manifest: &serde_json::Value) -> impl Iterator<Item = (&str, &str)> {
     list.filter_map(|entry| Some((entry["name"].as_str()?, entry["value"].as_str()?)))
 }
 
-/// In words, what differs between a manifest and the fingerprint that is wanted.
+/// Differences between a manifest and the fingerprint that is wanted, in words.
 pub(super) fn compare(manifest: &[u8], wanted: &[(&str, &str)]) -> Result<(), String> {
     let found = parse(manifest)?;
     let theirs: Vec<(&str, &str)> = entries(&found).collect();

@@ -1,4 +1,4 @@
-//! Two results are the same to the bit, or it is told where they differ and by how much.
+//! Two results are the same to the bit, or their differences are reported with place and size.
 
 use saltus_results::compare::{Difference, Outcome};
 use saltus_results::{Comparison, Dataset, ResultFolder, Variable, compare};
@@ -30,7 +30,7 @@ impl Two {
     }
 }
 
-/// What became of a file with the content `a` and `b`.
+/// Outcome for a file with the content `a` and `b`.
 fn outcome(name: &str, a: &[u8], b: &[u8]) -> Outcome {
     let comparison = Two::new(&[(name, a)], &[(name, b)]).compare();
     assert_eq!(comparison.files[0].name, name);

@@ -341,7 +341,7 @@ fn misfits_are_named() {
     }
 }
 
-/// What `open_in_xarray.py` compares the file with.
+/// Content with which `open_in_xarray.py` compares the file.
 fn expected() -> String {
     let mut variables = serde_json::Map::new();
     for (name, dimensions, values) in arrays() {

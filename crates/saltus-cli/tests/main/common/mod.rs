@@ -1,4 +1,4 @@
-//! What the tests share: the program, and a desk to work at.
+//! Common parts of the tests: the program, and a desk to work at.
 
 pub(crate) mod underway;
 
