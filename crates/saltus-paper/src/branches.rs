@@ -1,4 +1,4 @@
-//! Why is each transition of Fig. 2 where it is? The branches of periodic orbits behind the clouds.
+//! The branches of periodic orbits behind the clouds of Fig. 2: they say why each transition is where it is.
 
 use std::sync::Arc;
 
@@ -26,13 +26,13 @@ const ALONG: Along = Along {
     to: 0.5,
 };
 
-/// Where the main branch of each panel is met: its long-term motion at high damping.
+/// Damping ratio at which the main branch of each panel is met: the long-term motion at high damping.
 const START: f64 = 0.45;
 
 /// Points with unstable orbits that end a branch which is followed for its stable part.
 const BEYOND: usize = 1;
 
-/// Under the other laws and the other reading, where only long stretches are told: longest period of a cycle whose
+/// Under the other laws and the other reading, where only long stretches are reported: longest period of a cycle whose
 /// doubling is sought, and of a motion whose cycle is.
 const OTHERS: [usize; 2] = [8, 16];
 
@@ -60,22 +60,22 @@ const SAME: f64 = 1e-6;
 /// z/eta.
 const TWICE: [f64; 2] = [1e-8, 1e-3];
 
-/// What is behind one panel of Fig. 2, under one contact law and one reading of omega_h.
+/// Branches behind one panel of Fig. 2, under one contact law and one reading of omega_h.
 #[derive(Clone, Debug)]
 pub struct PanelBranches {
     /// The contact law.
     pub law: ContactLaw,
-    /// What omega_h means.
+    /// Meaning of omega_h.
     pub reference: FrequencyReference,
     /// Omega/omega_h.
     pub ratio: f64,
-    /// Where which cycle is stable, by falling damping ratio of the upper end.
+    /// Stretches with a stable cycle, by falling damping ratio of the upper end.
     pub stretches: Vec<Stretch>,
     /// More of the paper's own law and the occupied reading.
     pub detail: Option<Detail>,
 }
 
-/// What is behind one of the paper's panels beside the stable cycles.
+/// More of what is behind one of the paper's panels than the stable cycles.
 #[derive(Clone, Debug)]
 pub struct Detail {
     /// The branches, unstable parts too.
@@ -99,16 +99,16 @@ pub struct Drawn {
     pub stable: Vec<bool>,
     /// z/eta of the body: `heights[place][point]`.
     pub heights: Vec<Vec<f64>>,
-    /// Why it ends, at both ends.
+    /// Reason why it ends, at both ends.
     pub ends: [String; 2],
 }
 
 /// A special point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transition {
-    /// Such as PD1.
+    /// Label, such as PD1.
     pub label: String,
-    /// What happens.
+    /// Kind of the point.
     pub kind: SpecialKind,
     /// zeta_h by continuation.
     pub damping_ratio: f64,
@@ -155,7 +155,7 @@ struct Panel<'a> {
     control: &'a Control,
 }
 
-/// What is known of a panel.
+/// Knowledge of a panel.
 #[derive(Default)]
 struct Known {
     limbs: Vec<Limb>,

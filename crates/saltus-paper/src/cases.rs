@@ -4,7 +4,9 @@ use saltus::hybrid::Point;
 use saltus::model::{Contact, Inertia, Model, Section};
 use saltus::orbits::{Criteria, MotionKind, Recurrence, Verdict, judge};
 use saltus::physics::{ContactLaw, FrequencyReference};
-use saltus::study::{Control, StudyError, Trajectory, growth, recurrence, settle, simulate};
+use saltus::study::{
+    Control, Growth, StudyError, Trajectory, growth, recurrence, settle, simulate,
+};
 
 use crate::effort::Effort;
 use crate::parallel::in_parallel;
@@ -21,7 +23,7 @@ pub struct Case {
     pub damping_ratio: f64,
     /// Whether the paper gives this damping ratio; else we chose one inside the regime it names.
     pub given: bool,
-    /// What the paper calls the motion.
+    /// Name that the paper gives the motion.
     pub paper: &'static str,
 }
 
@@ -46,7 +48,7 @@ pub fn cases() -> [Case; 8] {
     ]
 }
 
-/// What was found for a case.
+/// Findings for a case.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CaseResult {
     /// The case.
@@ -57,7 +59,7 @@ pub struct CaseResult {
     pub period_seconds: f64,
     /// Forcing periods after which the section repeats to 1e-6; `None` if it does not.
     pub recurrence: Option<u32>,
-    /// What the motion is, by its largest Lyapunov exponent per forcing period and its recurrence.
+    /// Kind of the motion, by its largest Lyapunov exponent per forcing period and its recurrence.
     pub verdict: Verdict,
     /// Part of the time on the floor over the kept periods.
     pub contact_ratio: f64,
@@ -90,7 +92,7 @@ impl CaseResult {
         out
     }
 
-    /// Into how many bands, visited in turn, the heights of the section fall: 16 at most, a power of two.
+    /// Number of bands, visited in turn, into which the heights of the section fall: 16 at most, a power of two.
     pub fn bands(&self) -> usize {
         let z: Vec<f64> = self.trajectory.section.iter().map(|s| s.z[0]).collect();
         let apart = |n: usize| {
@@ -107,7 +109,7 @@ impl CaseResult {
         [16, 8, 4, 2].into_iter().find(|&n| apart(n)).unwrap_or(1)
     }
 
-    /// In a word or two: what the numbers say.
+    /// Name of the motion in a word or two.
     pub fn words(&self) -> String {
         let exponent = self.verdict.exponent;
         let (mean, error) = (exponent.per_iterate, exponent.standard_error);
@@ -147,6 +149,24 @@ pub fn run_cases(
     effort: &Effort,
     control: &Control,
 ) -> Result<Vec<CaseResult>, StudyError> {
+    let starts = settled(reference, control)?;
+    let trajectories = in_parallel(&starts, control.threads, |(model, start)| {
+        simulate(model, start, KEPT, HISTORY, POINTS, control)
+    });
+    let trajectories = trajectories.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let exponents = growth(&starts, 1, effort.exponent_periods, control)?;
+    let parts = starts.iter().zip(trajectories).zip(&exponents);
+    let parts = cases().into_iter().zip(parts);
+    Ok(parts
+        .map(|(case, (((model, _), trajectory), growth))| result(case, model, trajectory, growth))
+        .collect())
+}
+
+/// The models of all cases, and the states that they have settled to.
+fn settled(
+    reference: FrequencyReference,
+    control: &Control,
+) -> Result<Vec<(Model, Point)>, StudyError> {
     let law = ContactLaw::ReactionForce;
     let mut starts: Vec<(Model, Point)> = Vec::new();
     for case in cases() {
@@ -165,44 +185,34 @@ pub fn run_cases(
     for (start, settled) in starts.iter_mut().zip(settled) {
         start.1 = settled.end;
     }
-    let trajectories = in_parallel(&starts, control.threads, |(model, start)| {
-        simulate(model, start, KEPT, HISTORY, POINTS, control)
+    Ok(starts)
+}
+
+/// The findings for one case, from its settled motion and its exponents.
+fn result(case: Case, model: &Model, trajectory: Trajectory, growth: &Growth) -> CaseResult {
+    let column =
+        |pick: fn(&Section) -> f64| -> Vec<f64> { trajectory.section.iter().map(pick).collect() };
+    let (z, v) = (column(|s| s.z[0]), column(|s| s.v[0]));
+    let recurrence = recurrence(&z, &v, 1e-6);
+    let again = recurrence.map_or(Recurrence::Open, |period| {
+        let rest = 1e-6;
+        Recurrence::Recurs { period, rest }
     });
-    let trajectories = trajectories.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let exponents = growth(&starts, 1, effort.exponent_periods, control)?;
-    let mut out = Vec::new();
-    for (((case, (model, _)), trajectory), growth) in cases()
-        .into_iter()
-        .zip(starts)
-        .zip(trajectories)
-        .zip(&exponents)
-    {
-        let column = |pick: fn(&Section) -> f64| -> Vec<f64> {
-            trajectory.section.iter().map(pick).collect()
-        };
-        let (z, v) = (column(|s| s.z[0]), column(|s| s.v[0]));
-        let recurrence = recurrence(&z, &v, 1e-6);
-        let again = recurrence.map_or(Recurrence::Open, |period| {
-            let rest = 1e-6;
-            Recurrence::Recurs { period, rest }
-        });
-        let contact: f64 = trajectory.contact_ratio.iter().map(|ratio| ratio[0]).sum();
-        out.push(CaseResult {
-            case,
-            period_seconds: model.scales().period(),
-            recurrence,
-            verdict: judge(&growth.spectrum, again, &Criteria::default()),
-            contact_ratio: contact / trajectory.contact_ratio.len().max(1) as f64,
-            peak_force: trajectory
-                .history
-                .states
-                .iter()
-                .map(|s| s.prf[0])
-                .fold(0.0, f64::max),
-            trajectory,
-        });
+    let contact: f64 = trajectory.contact_ratio.iter().map(|ratio| ratio[0]).sum();
+    CaseResult {
+        case,
+        period_seconds: model.scales().period(),
+        recurrence,
+        verdict: judge(&growth.spectrum, again, &Criteria::default()),
+        contact_ratio: contact / trajectory.contact_ratio.len().max(1) as f64,
+        peak_force: trajectory
+            .history
+            .states
+            .iter()
+            .map(|s| s.prf[0])
+            .fold(0.0, f64::max),
+        trajectory,
     }
-    Ok(out)
 }
 
 impl Effort {

@@ -16,7 +16,7 @@ use crate::stretches::Stretch;
 pub struct Diagram {
     /// The contact law.
     pub law: ContactLaw,
-    /// What omega_h means.
+    /// Meaning of omega_h.
     pub reference: FrequencyReference,
     /// Omega/omega_h.
     pub ratio: f64,
@@ -125,7 +125,7 @@ impl Diagram {
         self.rows.iter().filter(move |row| row.pass == pass)
     }
 
-    /// What the motion of a row has come to, held against the cycles that are stable at its damping ratio.
+    /// End of the motion of a row, held against the cycles that are stable at its damping ratio.
     pub fn met(row: &SweepRow, stretches: &[Stretch]) -> Met {
         let (Some(z), Some(v)) = (row.z.first(), row.v.first()) else {
             return Met::Other;
@@ -142,14 +142,14 @@ impl Diagram {
     }
 }
 
-/// What a motion of a sweep has come to.
+/// Ends of a motion of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Met {
     /// A stable cycle of this period.
     Cycle(usize),
-    /// None, though it repeats after so many periods to 1e-3 eta: a transient that is slow, as they are near a
-    /// bifurcation.
+    /// No cycle, though it repeats after this number of periods to 1e-3 eta: a transient that is slow, as they are near
+    /// a bifurcation.
     Slow(usize),
-    /// None, and it does not repeat.
+    /// No cycle, and it does not repeat.
     Other,
 }

@@ -11,12 +11,12 @@ use crate::cases::CaseResult;
 use crate::setting::RATIOS;
 use crate::stretches::{Bound, Edge, Stretch, cascade, families};
 
-/// What became of a statement.
+/// Outcome for a statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// As stated.
+    /// Reproduced as stated.
     Reproduced,
-    /// As stated, but for something we say.
+    /// Reproduced but for a departure that we name.
     Departure,
     /// Not as stated.
     NotReproduced,
@@ -48,7 +48,7 @@ pub struct Fact {
     pub id: &'static str,
     /// The paper's claim, in our words.
     pub claim: &'static str,
-    /// What we find.
+    /// Our finding.
     pub value: String,
     /// The verdict on the reading named in `reading`.
     pub verdict: Verdict,
@@ -168,7 +168,7 @@ fn frequencies() -> Result<Vec<Fact>, StudyError> {
     ])
 }
 
-/// What a finding may look at: everything under one reading.
+/// Grounds of a finding: everything under one reading.
 struct Evidence<'a> {
     reference: FrequencyReference,
     cases: &'a [CaseResult],
@@ -415,7 +415,7 @@ fn f8(evidence: &Evidence<'_>) -> Finding {
     (value, Verdict::Reproduced)
 }
 
-/// Where a jump between two damping ratios is: at the only end of a stretch there that is no doubling, if so.
+/// Place of a jump between two damping ratios: the only end of a stretch there that is no doubling, if there is one.
 fn jumps(stretches: &[Stretch], [low, high]: [f64; 2]) -> String {
     let ends = stretches.iter().flat_map(|one| [&one.from, &one.to]);
     let jump = |bound: &&Bound| {

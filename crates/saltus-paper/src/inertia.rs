@@ -33,7 +33,7 @@ pub struct InertiaComparison {
     pub rows: Vec<InertiaRow>,
     /// Largest difference among periodic motions, in eta.
     pub largest: f64,
-    /// How many were on the same periodic attractor in both.
+    /// Number of motions on the same periodic attractor in both.
     pub periodic: usize,
 }
 

@@ -12,13 +12,13 @@ use crate::setting::setup;
 /// One place where the paper cannot mean what it prints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Misprint {
-    /// Where.
+    /// Place in the paper.
     pub place: &'static str,
-    /// What is printed.
+    /// Text as printed.
     pub printed: &'static str,
-    /// What we use, and why.
+    /// Reading that we use, and why.
     pub used: &'static str,
-    /// How much it changes.
+    /// Size of the change.
     pub effect: String,
 }
 
@@ -29,18 +29,29 @@ pub struct Misprint {
 pub fn misprints(control: &Control) -> Result<Vec<Misprint>, StudyError> {
     let plate = Plate::dias_del_prado();
     let jumper = Jumper::dias_del_prado(plate.length, plate.width);
-    let body = |plate: &Plate, jumper: &Jumper| -> Result<f64, StudyError> {
-        let modes = plate.occupied(&[*jumper])?;
-        Ok(modes.hz[modes.body_index.unwrap_or(0)])
-    };
-    let right = body(&plate, &jumper)?;
+    let right = body_hz(&plate, &jumper)?;
+    let mut table = of_frequencies(&plate, &jumper, right)?;
+    table.extend(of_forces(&jumper, control)?);
+    table.push(Misprint {
+        place: "section 3, Omega = 0.9, 1.0, 1.1 omega_h",
+        printed: "omega_h without saying which",
+        used: "the occupied body frequency; the free one is offered and contradicts two statements",
+        effect: format!(
+            "Omega = 1.0 omega_h is {right:.4} Hz or {:.4} Hz; see F4 to F8",
+            jumper.omega() / TAU
+        ),
+    });
+    Ok(table)
+}
+
+/// Misprints that change the body's frequency on the plate; `right` is the true one (Hz).
+fn of_frequencies(plate: &Plate, jumper: &Jumper, right: f64) -> Result<Vec<Misprint>, StudyError> {
     let mut without = plate.clone();
     without.modes.w.retain(|mode| *mode != Mode::new(3, 1));
     let stiffer = Jumper {
         stiffness: jumper.mass * (TAU * 2.48).powi(2),
-        ..jumper
+        ..*jumper
     };
-    let weight = jumper.mass * GRAVITY;
     Ok(vec![
         Misprint {
             place: "section 3, the 16 coordinates",
@@ -49,7 +60,7 @@ pub fn misprints(control: &Control) -> Result<Vec<Misprint>, StudyError> {
                    occupied frequencies need w_31",
             effect: format!(
                 "body frequency {:.4} Hz without w_31, {right:.4} Hz with it (printed 2.537)",
-                body(&without, &jumper)?
+                body_hz(&without, jumper)?
             ),
         },
         Misprint {
@@ -58,7 +69,7 @@ pub fn misprints(control: &Control) -> Result<Vec<Misprint>, StudyError> {
             used: "k_h = 18 600 N/m, so omega_h = 2.4794 Hz",
             effect: format!(
                 "occupied body frequency {:.4} Hz from 2.48 Hz exactly, {right:.4} Hz from 18.6 kN/m",
-                body(&plate, &stiffer)?
+                body_hz(plate, &stiffer)?
             ),
         },
         Misprint {
@@ -67,9 +78,16 @@ pub fn misprints(control: &Control) -> Result<Vec<Misprint>, StudyError> {
             used: "psi_i psi_j, from Lagrange's equations of (2) and (6)",
             effect: format!(
                 "occupied body frequency {:.4} Hz as printed, {right:.4} Hz as derived",
-                printed_9a(&plate, &jumper)
+                printed_9a(plate, jumper)
             ),
         },
+    ])
+}
+
+/// Misprints that change a force or a flight.
+fn of_forces(jumper: &Jumper, control: &Control) -> Result<Vec<Misprint>, StudyError> {
+    let weight = jumper.mass * GRAVITY;
+    Ok(vec![
         Misprint {
             place: "Eqs. (9c), (11b)",
             printed: "4^2/pi^2 for every coordinate",
@@ -91,16 +109,13 @@ pub fn misprints(control: &Control) -> Result<Vec<Misprint>, StudyError> {
             used: "... - t_0 q'(t_0): free fall",
             effect: printed_13a(control)?,
         },
-        Misprint {
-            place: "section 3, Omega = 0.9, 1.0, 1.1 omega_h",
-            printed: "omega_h without saying which",
-            used: "the occupied body frequency; the free one is offered and contradicts two statements",
-            effect: format!(
-                "Omega = 1.0 omega_h is {right:.4} Hz or {:.4} Hz; see F4 to F8",
-                jumper.omega() / TAU
-            ),
-        },
     ])
+}
+
+/// Frequency (Hz) of the body on the plate.
+fn body_hz(plate: &Plate, jumper: &Jumper) -> Result<f64, StudyError> {
+    let modes = plate.occupied(&[*jumper])?;
+    Ok(modes.hz[modes.body_index.unwrap_or(0)])
 }
 
 /// Body frequency (Hz) of the equations as (9a) prints them: with D_j = K_j - lambda M and

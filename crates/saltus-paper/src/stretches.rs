@@ -1,4 +1,4 @@
-//! Where which cycle is stable: what every regime rests on.
+//! Stretches of the damping ratio on which a cycle is stable: the ground of every verdict on regimes.
 //!
 //! A branch of periodic orbits is cut at the special points where the number of multipliers outside the unit circle
 //! changes between none and some. What lies between two cuts with none outside is a stretch: there a motion on the
@@ -30,13 +30,13 @@ pub struct Stretch {
 /// An end of a stretch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bound {
-    /// Where.
+    /// Place of the end.
     pub damping_ratio: f64,
-    /// What happens there.
+    /// Event there.
     pub at: Edge,
 }
 
-/// What ends a stretch.
+/// Events that end a stretch.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Edge {
     /// The scanned range.
@@ -200,7 +200,7 @@ struct Run<'a> {
     orbits: Vec<&'a Orbit>,
 }
 
-/// Where a stable part begins or ends.
+/// Beginning or end of a stable part.
 struct Cut<'a> {
     bound: Bound,
     /// The orbit there, if it is one of the branch and none of its points.
@@ -290,7 +290,7 @@ fn last_special(branch: &Branch, side: usize) -> Option<&Special> {
     special.filter(|_| matches!(branch.ends[side], End::Halved | End::Grazing))
 }
 
-/// What is at an end of a limb: where it meets or comes from another one, a special point of either.
+/// End of a limb: where it meets or comes from another one, a special point of either.
 fn end(limbs: &[Limb], limb: &Limb, side: usize) -> Bound {
     let branch = &limb.branch;
     let point = &branch.points[side * (branch.points.len() - 1)];

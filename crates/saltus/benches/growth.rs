@@ -1,4 +1,4 @@
-//! How the cost grows with the number of terms and of people: set-up, rate and size, one thread. The
+//! Growth of the cost with the number of terms and of people: set-up, rate and size, one thread. The
 //! output is the table of docs/benchmarks.md.
 
 use std::time::Instant;

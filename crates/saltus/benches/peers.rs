@@ -17,7 +17,7 @@ use saltus::study::{Control, Pass, Sweep, sweep};
 
 type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 
-/// What INERTIA may be, by name.
+/// Values of INERTIA, by name.
 const INERTIAS: [Inertia; 3] = [Inertia::Full, Inertia::SlowManifold, Inertia::Condensed];
 const START: (f64, f64) = (3.0, 2.0);
 const LABEL: (f64, f64, u64) = (0.45, 0.9, 20);

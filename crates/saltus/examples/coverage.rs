@@ -1,4 +1,4 @@
-//! How often is a pixel of a map given a wrong name? Random pixels of the paper's plane, judged by the map with its
+//! Rate at which pixels of a map get a wrong name. Random pixels of the paper's plane, judged by the map with its
 //! defaults and by a slow judge that shares none of its shortcuts; printed as a confusion table.
 //!
 //! `cargo run --release -p saltus --example coverage -- [PIXELS] [SEED]`
@@ -47,7 +47,7 @@ enum Name {
     Periodic(usize),
     Torus,
     Chaos,
-    /// Chaos that was seen to last as long as the map says, and ends on a cycle of so many periods later.
+    /// Chaos that was seen to last as long as the map says, and ends on a cycle of this period later.
     Passing(usize),
     Undecided,
 }
@@ -134,7 +134,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     std::process::exit(i32::from(wrong > 0));
 }
 
-/// What the map says with its defaults, and after how many periods.
+/// Name that the map gives with its defaults, and the periods it took.
 fn quick(
     pixels: &[Pixel],
     plate: &Arc<PreparedPlate>,
@@ -167,7 +167,7 @@ fn quick(
     Ok(names)
 }
 
-/// What the judge says, and on what grounds.
+/// Name that the judge gives, and on what grounds.
 fn judge(
     pixels: &[Pixel],
     plate: &Arc<PreparedPlate>,
@@ -219,7 +219,7 @@ fn judge(
     Ok(names)
 }
 
-/// Whether one of the motions from the first state of a pixel is on no cycle after so many periods: chaos forgets
+/// Whether one of the motions from the first state of a pixel is on no cycle after `periods` periods: chaos forgets
 /// which of them the map ran.
 fn lasts(
     (zeta, ratio): Pixel,

@@ -1,4 +1,4 @@
-//! How often intervals of 95 % hold the largest exponent of the paper's person, printed as a table for
+//! Coverage of intervals of 95 % for the largest exponent of the paper's person, printed as a table for
 //! docs/numerics.md.
 //!
 //! Of each case 50 measurements of 8 x 500 periods are made from starts of their own, as `saltus lyapunov` makes them.

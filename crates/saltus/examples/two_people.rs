@@ -1,4 +1,4 @@
-//! Two people on one plate: do they end up jumping together, each for himself, or not periodically?
+//! Two people on one plate, who end up jumping together, each alone, or without a period.
 //!
 //! `cargo run --release -p saltus --example two_people`
 

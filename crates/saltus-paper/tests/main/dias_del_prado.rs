@@ -137,7 +137,7 @@ fn limits_are_doublings_and_not_slow_transients(facts: &[Fact]) {
     }
 }
 
-/// What a sweep is on, and what is stable there; slow motions are near an end of what is.
+/// Compares what a sweep is on with what is stable there; slow motions are near an end of what is.
 fn sweeps_agree_with_stretches(diagrams: &[Diagram], branches: &[PanelBranches]) {
     let mut on_cycles = 0;
     for (diagram, panel) in diagrams.iter().zip(branches) {

@@ -1,9 +1,9 @@
-//! How fast the flow contracts volumes in state space.
+//! The rate at which the flow contracts volumes in state space.
 
 use saltus_hybrid::Mode;
 
 use super::Model;
-use super::equations::Contact;
+use super::leg::Contact;
 use crate::physics::ContactLaw;
 
 impl Model {

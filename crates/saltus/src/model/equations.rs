@@ -18,62 +18,26 @@
 //!   m_j n_j and zero else.
 //! - (10) prints + k_h; with it the reaction at rest would be minus the weight.
 
-use saltus_hybrid::{BuildError, Mode, Node, System, SystemBuilder, Transition, Unit};
+use saltus_hybrid::{BuildError, Node, System, SystemBuilder};
 
-use super::energy::{BaseMotion, EnergyLedger};
-use super::{Layout, PreparedPlate, Scales, Setup};
-use crate::physics::{ContactLaw, Jumper};
+use super::drive::{BaseLoad, Drive};
+use super::elastic::{Elastic, Sum};
+use super::layout::Layout;
+use super::ledger::EnergyLedger;
+use super::leg::{Leg, Surroundings, leg};
+use super::prepared::PreparedPlate;
+use super::scales::Scales;
+use super::setup::Setup;
 
-/// Contact state of one jumper.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Contact {
-    /// On the floor.
-    Stance,
-    /// In the air: no force.
-    Flight,
-}
-
-/// Modes of a jumper's unit. `LIFTED` exists under the gap law only: no force, gap still closed.
-pub(crate) const STANCE: Mode = 0;
-pub(crate) const FLIGHT: Mode = 1;
-pub(crate) const LIFTED: Mode = 2;
-
-impl Contact {
-    /// What a mode of the engine means.
-    pub fn of(mode: Mode) -> Self {
-        if mode == STANCE {
-            Self::Stance
-        } else {
-            Self::Flight
-        }
-    }
-}
-
-pub(crate) struct Equations {
-    pub(crate) system: System,
-    pub(crate) leg_force: Vec<Node>,
+pub(super) struct Equations {
+    pub(super) system: System,
+    pub(super) leg_force: Vec<Node>,
     /// R_j''.
-    pub(crate) plate_acceleration: Vec<Node>,
-    pub(crate) ledger: Option<EnergyLedger>,
+    pub(super) plate_acceleration: Vec<Node>,
+    pub(super) ledger: Option<EnergyLedger>,
 }
 
-/// One jumper's nodes.
-pub(crate) struct Leg {
-    /// Force of spring and damper over m_h h Omega^2, whatever the phase.
-    pub(crate) force: Node,
-    /// The same, zero in flight.
-    pub(crate) gated: Node,
-    /// c_h/(m_h Omega).
-    pub(crate) damping: f64,
-    /// Its contact automaton.
-    pub(crate) unit: Unit,
-    /// d' = W' - Z'.
-    pub(crate) rate: Node,
-    psi: Vec<f64>,
-    pub(crate) mass_ratio: f64,
-}
-
-pub(crate) fn build(
+pub(super) fn build(
     setup: &Setup,
     plate: &PreparedPlate,
     scales: &Scales,
@@ -83,47 +47,53 @@ pub(crate) fn build(
     let mut b = SystemBuilder::new(layout.len());
     // Motions of a thickness matter, and the first mode of a plate at rest need not be known to 1e-10 of itself.
     b.scale_together(1.0);
-    let (cos, sin) = b.drive(1.0);
-    let amplitude = setup.base.amplitude / scales.length;
-    let legs: Vec<Leg> = setup
-        .jumpers
-        .iter()
-        .enumerate()
-        .map(|(i, jumper)| {
-            leg(
-                &mut b,
-                setup,
-                scales,
-                layout,
-                i,
-                jumper,
-                amplitude,
-                (cos, sin),
-            )
-        })
+    let drive = Drive::new(&mut b, setup, scales);
+    let around = Surroundings {
+        setup,
+        scales,
+        layout,
+        drive,
+    };
+    let legs: Vec<Leg> = (0..setup.jumpers.len())
+        .map(|index| leg(&mut b, around, index))
         .collect();
-
-    // Inertial load of the base: (G_j/M) a (cos tau + (c/Omega) sin tau).
-    let e = &plate.elasticity;
-    let damping = e.damping / scales.omega;
-    let loads: Vec<f64> = e
-        .base_load
-        .iter()
-        .map(|g| g / e.transverse_mass * amplitude)
-        .collect();
-    let base = b.linear(0.0, &[(1.0, cos), (damping, sin)]);
+    let load = BaseLoad::new(&plate.elasticity, scales, drive);
+    let base = load.inertial(&mut b);
     let elastic = plate
         .stretching
-        .forces(&mut b, e, setup.inertia, scales, layout);
-    let mut plate_acceleration = Vec::with_capacity(loads.len());
-    for (j, &load) in loads.iter().enumerate() {
+        .forces(&mut b, &plate.elasticity, setup.inertia, scales, layout);
+    let plate_acceleration = transverse(&mut b, plate, around, &legs, &load, base, &elastic);
+    in_plane(&mut b, layout, &elastic.in_plane, load.damping);
+    let ledger = with_energy
+        .then(|| EnergyLedger::declare(&mut b, plate, layout, setup.contact, &legs, &load));
+    Ok(Equations {
+        system: b.build(0.0)?,
+        leg_force: legs.iter().map(|leg| leg.force).collect(),
+        plate_acceleration,
+        ledger,
+    })
+}
+
+/// Declares R_j''.
+fn transverse(
+    b: &mut SystemBuilder,
+    plate: &PreparedPlate,
+    Surroundings { scales, layout, .. }: Surroundings<'_>,
+    legs: &[Leg],
+    load: &BaseLoad,
+    base: Node,
+    elastic: &Elastic,
+) -> Vec<Node> {
+    let e = &plate.elasticity;
+    let mut accelerations = Vec::with_capacity(load.shares.len());
+    for (j, &share) in load.shares.iter().enumerate() {
         let mut terms = vec![
             (
                 -e.bending[j] / (e.transverse_mass * scales.omega.powi(2)),
                 b.state(layout.r(j)),
             ),
-            (-damping, b.state(layout.dr(j))),
-            (load, base),
+            (-load.damping, b.state(layout.dr(j))),
+            (share, base),
         ];
         terms.extend(elastic.transverse[j].iter().map(|&node| (-1.0, node)));
         terms.extend(
@@ -133,144 +103,18 @@ pub(crate) fn build(
         let acceleration = b.linear(0.0, &terms);
         b.derivative(layout.r(j), b.state(layout.dr(j)));
         b.derivative(layout.dr(j), acceleration);
-        plate_acceleration.push(acceleration);
+        accelerations.push(acceleration);
     }
-    for i in 0..layout.in_plane {
-        let mut terms = elastic.in_plane[i].clone();
+    accelerations
+}
+
+/// Declares P_i'', where in-plane amplitudes are states.
+fn in_plane(b: &mut SystemBuilder, layout: Layout, forces: &[Sum], damping: f64) {
+    for (i, force) in forces.iter().enumerate() {
+        let mut terms = force.clone();
         terms.push((-damping, b.state(layout.dp(i))));
         let acceleration = b.linear(0.0, &terms);
         b.derivative(layout.p(i), b.state(layout.dp(i)));
         b.derivative(layout.dp(i), acceleration);
     }
-    let ledger = with_energy.then(|| {
-        let base = BaseMotion {
-            loads: &loads,
-            damping,
-            amplitude,
-            cos,
-            sin,
-        };
-        EnergyLedger::declare(&mut b, plate, layout, setup.contact, &legs, &base)
-    });
-    Ok(Equations {
-        system: b.build(0.0)?,
-        leg_force: legs.iter().map(|leg| leg.force).collect(),
-        plate_acceleration,
-        ledger,
-    })
 }
-
-/// Compression, force and contact of one jumper.
-#[allow(clippy::too_many_arguments)]
-fn leg(
-    b: &mut SystemBuilder,
-    setup: &Setup,
-    scales: &Scales,
-    layout: Layout,
-    index: usize,
-    jumper: &Jumper,
-    amplitude: f64,
-    (cos, sin): (Node, Node),
-) -> Leg {
-    let psi = setup.plate.mode_shape(jumper.x, jumper.y);
-    let omega = scales.omega;
-    let stiffness = jumper.stiffness / (jumper.mass * omega * omega);
-    let damping = jumper.damping() / (jumper.mass * omega);
-    let (z, dz) = (b.state(layout.z(index)), b.state(layout.dz(index)));
-
-    let mut gap: Vec<(f64, Node)> = psi
-        .iter()
-        .enumerate()
-        .map(|(j, &psi)| (psi, b.state(layout.r(j))))
-        .collect();
-    gap.extend([(amplitude, cos), (-1.0, z)]);
-    let mut rate: Vec<(f64, Node)> = psi
-        .iter()
-        .enumerate()
-        .map(|(j, &psi)| (psi, b.state(layout.dr(j))))
-        .collect();
-    rate.extend([(-amplitude, sin), (-1.0, dz)]);
-    let gap = b.linear(0.0, &gap);
-    let rate = b.linear(0.0, &rate);
-    let force = b.linear(0.0, &[(stiffness, gap), (damping, rate)]);
-
-    let unit = b.reserve_unit();
-    let gated = b.gated_linear(
-        unit,
-        on_floor(setup.contact),
-        &[(stiffness, gap), (damping, rate)],
-    );
-    let weight = -setup.gravity / scales.acceleration();
-    let fall = b.linear(weight, &[(1.0, gated)]);
-    b.derivative(layout.z(index), dz);
-    b.derivative(layout.dz(index), fall);
-
-    let state = layout.leg(index);
-    let modes = match setup.contact {
-        ContactLaw::ReactionForce => {
-            vec![
-                vec![Transition::falling(force, FLIGHT)],
-                vec![Transition::rising(force, STANCE)],
-            ]
-        }
-        ContactLaw::Gap => vec![
-            vec![Transition::falling(force, LIFTED)],
-            vec![Transition::rising(gap, STANCE)],
-            vec![
-                Transition::rising(force, STANCE),
-                Transition::falling(gap, FLIGHT),
-            ],
-        ],
-        ContactLaw::RelaxingLeg => relaxing(b, unit, state, gap, rate, force, stiffness / damping),
-    };
-    b.define_unit(unit, modes);
-    let mass_ratio = jumper.mass / setup.plate.modal_mass();
-    Leg {
-        force,
-        gated,
-        unit,
-        damping,
-        rate,
-        psi,
-        mass_ratio,
-    }
-}
-
-/// 1 in stance and 0 in flight, for each mode of a jumper's unit.
-pub(crate) fn on_floor(law: ContactLaw) -> &'static [f64] {
-    match law {
-        ContactLaw::Gap => &[1.0, 0.0, 0.0],
-        ContactLaw::ReactionForce | ContactLaw::RelaxingLeg => &[1.0, 0.0],
-    }
-}
-
-/// A leg whose compression s follows the floor in stance and relaxes, s' = -(k_h/c_h) s, in flight.
-fn relaxing(
-    b: &mut SystemBuilder,
-    unit: Unit,
-    state: usize,
-    gap: Node,
-    rate: Node,
-    force: Node,
-    relaxation: f64,
-) -> Vec<Vec<Transition>> {
-    let s = b.state(state);
-    let follows = b.gate(unit, &[1.0, 0.0], rate);
-    let relaxes = b.gate(unit, &[0.0, -relaxation], s);
-    let ds = b.linear(0.0, &[(1.0, follows), (1.0, relaxes)]);
-    b.derivative(state, ds);
-    let reach = b.linear(0.0, &[(1.0, gap), (-1.0, s)]);
-    // At take-off d = s and, because k s + c d' = 0 there, d' = s' too: a double zero.
-    vec![
-        vec![
-            Transition::falling(force, FLIGHT)
-                .reset(state, gap)
-                .vanishing(reach, 2),
-        ],
-        vec![Transition::rising(reach, STANCE).reset(state, gap)],
-    ]
-}
-
-// The unit of a jumper and its place in the list of jumpers are the same number, because legs are
-// declared in that order and nothing else switches.
-const _: () = assert!(STANCE == 0 && FLIGHT == 1 && LIFTED == 2);

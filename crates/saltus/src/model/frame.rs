@@ -5,7 +5,7 @@ use std::collections::{BTreeSet, HashMap};
 
 use saltus_hybrid::{Node, SystemBuilder};
 
-use super::Layout;
+use super::layout::Layout;
 use crate::physics::QuarticTerm;
 
 /// A pair of transverse indices, the smaller first.

@@ -1,13 +1,13 @@
-//! Accelerations and forces along a trajectory, without allocating: what peaks are taken of.
+//! Accelerations and forces along a trajectory, without allocating, for peaks and contact times.
 
 use saltus_hybrid::{Evaluator, Mode};
 
 use super::Model;
-use super::equations::Contact;
+use super::leg::Contact;
 
 /// Measures at states of one model; see [`Model::probe`].
 #[derive(Clone, Debug)]
-pub struct Probe {
+pub(crate) struct Probe {
     evaluator: Evaluator,
     /// Places of R_j'' and of the leg forces among the nodes.
     plate: Vec<usize>,
@@ -24,19 +24,19 @@ pub struct Probe {
     reaction: Vec<f64>,
 }
 
-/// What a [`Probe`] measures at one instant.
+/// Readings of a [`Probe`] at one instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reading<'a> {
+pub(crate) struct Reading<'a> {
     /// Vertical acceleration of the floor under each body (m/s^2), base motion included:
     /// sum_j psi_j r_j'' - A_b Omega^2 cos(Omega t).
-    pub floor: &'a [f64],
+    pub(crate) floor: &'a [f64],
     /// Plate reaction force on each body in units of its weight (-); 0 in flight.
-    pub reaction: &'a [f64],
+    pub(crate) reaction: &'a [f64],
 }
 
 impl Model {
     /// A probe for states of this model.
-    pub fn probe(&self) -> Probe {
+    pub(crate) fn probe(&self) -> Probe {
         let index = |node: &saltus_hybrid::Node| self.system.index(*node);
         let jumpers = &self.setup.jumpers;
         let psi = |jumper: &crate::physics::Jumper| self.setup.plate.mode_shape(jumper.x, jumper.y);
@@ -56,9 +56,9 @@ impl Model {
 }
 
 impl Probe {
-    /// What is there at state `x` in `modes`. Where a switch makes a force jump, `modes` say which
+    /// Readings at state `x` in `modes`. Where a switch makes a force jump, `modes` say which
     /// side is meant.
-    pub fn read(&mut self, modes: &[Mode], x: &[f64]) -> Reading<'_> {
+    pub(crate) fn read(&mut self, modes: &[Mode], x: &[f64]) -> Reading<'_> {
         let nodes = self.evaluator.nodes(modes, x);
         let base = self.base * x[self.cos];
         let shapes = self.psi.chunks_exact(self.plate.len());

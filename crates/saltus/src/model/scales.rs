@@ -1,8 +1,8 @@
 //! Units: the only place where SI and the model's numbers meet.
 
-use super::Setup;
+use super::setup::Setup;
 
-/// What one unit of the model is in SI.
+/// Units of the model in SI.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scales {
     /// Length: the plate thickness h (m).

@@ -3,7 +3,7 @@
 use saltus_hybrid::{Evaluator, Mode, Point};
 
 use super::Model;
-use super::equations::{Contact, FLIGHT, LIFTED, STANCE};
+use super::leg::{Contact, FLIGHT, LIFTED, STANCE};
 use crate::physics::ContactLaw;
 
 /// One point of the stroboscopic section (cos(Omega t) = 1) in the paper's units.
@@ -19,7 +19,7 @@ pub struct Section {
     pub phase: Vec<Contact>,
 }
 
-/// What can be measured at one instant.
+/// Measurements at one instant.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Observation {
     /// Position of each body, z/eta.

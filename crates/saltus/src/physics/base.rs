@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 pub struct Base {
     /// Amplitude A_b (m).
     pub amplitude: f64,
-    /// How Omega is given.
+    /// Frequency Omega, in hertz or as a ratio.
     pub frequency: BaseFrequency,
 }
 
@@ -21,7 +21,7 @@ pub enum BaseFrequency {
     Ratio {
         /// Omega/omega_reference (-).
         ratio: f64,
-        /// Which frequency.
+        /// Frequency that it is a multiple of.
         reference: FrequencyReference,
     },
 }

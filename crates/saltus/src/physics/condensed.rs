@@ -90,7 +90,7 @@ impl Elasticity {
     ///
     /// # Errors
     /// [`PhysicsError::Algebra`] if an entry overflows.
-    pub fn in_plane_flexibility(&self) -> Result<Vec<Entry>, PhysicsError> {
+    pub(crate) fn in_plane_flexibility(&self) -> Result<Vec<Entry>, PhysicsError> {
         self.factor.inverse()
     }
 

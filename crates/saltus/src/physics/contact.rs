@@ -1,4 +1,4 @@
-//! When do the feet leave the floor, and when are they back? Three answers from the literature.
+//! Contact laws: when the feet leave the floor and when they are back. Three answers from the literature.
 
 /// The law that decides between contact and flight.
 ///

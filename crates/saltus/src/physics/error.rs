@@ -1,4 +1,4 @@
-//! What can be wrong with a physical description.
+//! Faults of a physical description.
 
 /// A physical quantity that makes no sense, named as in the study file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -11,13 +11,13 @@ pub enum PhysicsError {
         field: String,
         /// The value given.
         value: f64,
-        /// What would be right, in words.
+        /// Numbers that would be right, in words.
         expected: &'static str,
     },
     /// A list of modes that no plate can be built from.
     #[error("plate.modes: {reason}")]
     Modes {
-        /// What is wrong and what would be right.
+        /// Fault, and the remedy.
         reason: String,
     },
     /// A jumper that is not on the plate.
@@ -26,7 +26,7 @@ pub enum PhysicsError {
          0 < x < {length}, 0 < y < {width}"
     )]
     OffThePlate {
-        /// Which jumper, from 0.
+        /// Number of the jumper, from 0.
         index: usize,
         /// Position (m).
         x: f64,
@@ -37,7 +37,7 @@ pub enum PhysicsError {
         /// Plate width b (m).
         width: f64,
     },
-    /// A frequency that only exists with somebody on the plate.
+    /// A frequency that exists only with a person on the plate.
     #[error(
         "base: the {reference} frequency is that of the first jumper, and there is none; \
          add a jumper, or give the frequency in hertz or relative to the plate"
@@ -52,7 +52,7 @@ pub enum PhysicsError {
          of the load; is the load in SI units?"
     )]
     NotConverged {
-        /// Which computation.
+        /// Name of the computation.
         what: &'static str,
         /// Newton iterations spent.
         iterations: u32,
@@ -60,10 +60,12 @@ pub enum PhysicsError {
         reached: f64,
     },
     /// More people than one plate is computed with.
-    #[error("jumper: {count} were given, at most {most} are possible", most = super::Jumper::MOST)]
+    #[error("jumper: {count} were given, at most {most} are possible")]
     TooManyJumpers {
-        /// How many were given.
+        /// Number given.
         count: usize,
+        /// Largest number possible.
+        most: usize,
     },
     /// Stopped from outside.
     #[error("interrupted")]
@@ -71,9 +73,9 @@ pub enum PhysicsError {
     /// A linear-algebra step that failed on this input.
     #[error("the {what} could not be computed: {reason}")]
     Algebra {
-        /// Which computation.
+        /// Name of the computation.
         what: &'static str,
-        /// What the solver said.
+        /// Report of the solver.
         reason: String,
     },
 }

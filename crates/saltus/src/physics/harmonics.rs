@@ -73,7 +73,7 @@ pub struct Harmonics {
 pub struct Work {
     /// Through the harmonics: E, W E and T.
     pub harmonics: usize,
-    /// What the in-plane amplitudes add to that: C^T E and C p.
+    /// Additions of the in-plane amplitudes to that: C^T E and C p.
     pub in_plane: usize,
     /// Directly, as a pairs x pairs matrix, at most: Q_jklm vanishes unless m_j + m_k + m_l + m_m
     /// is even, and likewise along y.
@@ -85,12 +85,12 @@ pub(super) fn pair(j: usize, k: usize) -> usize {
     k * (k + 1) / 2 + j
 }
 
-/// How often r_j r_k occurs in a sum over all j, k.
+/// Occurrences of r_j r_k in a sum over all j, k.
 pub(super) fn multiplicity(j: usize, k: usize) -> f64 {
     if j == k { 1.0 } else { 2.0 }
 }
 
-/// Which strain.
+/// Components of the strain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Field {
     X,
@@ -174,13 +174,13 @@ impl Harmonics {
 
     /// C^T E (N), the load of the strains `e` on the in-plane terms: s_i = B_ijk r_j r_k. Length
     /// `in_plane` terms, N_p.
-    pub fn load_on_in_plane(&self, e: &[f64], in_plane: usize) -> Vec<f64> {
+    pub(super) fn load_on_in_plane(&self, e: &[f64], in_plane: usize) -> Vec<f64> {
         transpose_times(in_plane, &self.in_plane, e)
     }
 
     /// N = W E + C p (J), one stress per row, for the strains `e` (rows) and in-plane amplitudes
     /// `p` (m, N_p).
-    pub fn stresses(&self, e: &[f64], p: &[f64]) -> Vec<f64> {
+    pub(super) fn stresses(&self, e: &[f64], p: &[f64]) -> Vec<f64> {
         let own = times(self.rows, &self.weights, e);
         let in_plane = times(self.rows, &self.in_plane, p);
         own.iter().zip(in_plane).map(|(w, c)| w + c).collect()

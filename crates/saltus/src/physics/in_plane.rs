@@ -1,4 +1,4 @@
-//! What the in-plane terms bring along: their strains, masses and stiffness K, exactly integrated.
+//! Strains, masses and stiffness K of the in-plane terms, exactly integrated.
 //! DP Eqs. (1)-(3).
 //!
 //! With C = E h/(1-nu^2), e_x = u_x + w_x^2/2, e_y = v_y + w_y^2/2, g = u_y + v_x + w_x w_y, the
@@ -9,7 +9,7 @@ use super::shape::{Rectangle, Shape};
 use super::trig::Trig::{Cos, Sin};
 use super::{InPlaneBasis, Mode, Plate};
 
-/// What a unit amplitude of an in-plane term contributes to e_x, e_y and g.
+/// Contribution of a unit amplitude of an in-plane term to e_x, e_y and g.
 #[derive(Clone, Copy)]
 pub(super) struct MembraneStrain {
     pub(super) x: Shape,

@@ -82,10 +82,13 @@ impl Jumper {
     /// # Errors
     /// [`PhysicsError::TooManyJumpers`] beyond [`Jumper::MOST`], and those of [`Jumper::check`] and
     /// [`Jumper::check_position`].
-    pub fn check_all(jumpers: &[Self], plate: &Plate) -> Result<(), PhysicsError> {
+    pub(crate) fn check_all(jumpers: &[Self], plate: &Plate) -> Result<(), PhysicsError> {
         let count = jumpers.len();
         if count > Self::MOST {
-            return Err(PhysicsError::TooManyJumpers { count });
+            return Err(PhysicsError::TooManyJumpers {
+                count,
+                most: Self::MOST,
+            });
         }
         let mut all = jumpers.iter().enumerate();
         all.try_for_each(|(index, jumper)| {
@@ -98,7 +101,7 @@ impl Jumper {
     ///
     /// # Errors
     /// [`PhysicsError::OffThePlate`] unless 0 < x < a and 0 < y < b (so also for a NaN).
-    pub fn check_position(&self, index: usize, plate: &Plate) -> Result<(), PhysicsError> {
+    fn check_position(&self, index: usize, plate: &Plate) -> Result<(), PhysicsError> {
         if plate.contains(self.x, self.y) {
             return Ok(());
         }

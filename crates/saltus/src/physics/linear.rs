@@ -86,7 +86,8 @@ impl Plate {
     /// each other and the plate rests.
     ///
     /// # Errors
-    /// Those of [`Plate::check`] and [`Jumper::check_all`]; [`PhysicsError::Algebra`] if the eigenvalues cannot be computed.
+    /// Those of [`Plate::check`] and [`Jumper::check`]; [`PhysicsError::OffThePlate`], [`PhysicsError::TooManyJumpers`], and
+    /// [`PhysicsError::Algebra`] if the eigenvalues cannot be computed.
     pub fn occupied(&self, jumpers: &[Jumper]) -> Result<OccupiedModes, PhysicsError> {
         self.check()?;
         Jumper::check_all(jumpers, self)?;
@@ -127,7 +128,7 @@ impl Plate {
     }
 }
 
-/// Which rows of a symmetric `size` x `size` matrix hang together by entries other than 0, in ascending order.
+/// Groups of rows of a symmetric `size` x `size` matrix that hang together by entries other than 0, in ascending order.
 fn blocks(size: usize, a: &[f64]) -> Vec<Vec<usize>> {
     let mut seen = vec![false; size];
     let mut blocks = Vec::new();

@@ -37,14 +37,14 @@ pub struct QuarticTerm {
 }
 
 impl CouplingTerm {
-    /// How often the entry occurs in the full sum: 1 if j = k, else 2.
+    /// Occurrences of the entry in the full sum: 1 if j = k, else 2.
     pub fn multiplicity(&self) -> f64 {
         multiplicity(self.j, self.k)
     }
 }
 
 impl QuarticTerm {
-    /// How often the entry occurs in the full sum: the number of distinct orders of (j, k, l, m).
+    /// Occurrences of the entry in the full sum: the number of distinct orders of (j, k, l, m).
     pub fn multiplicity(&self) -> f64 {
         // 4!/(product of the factorials of the lengths of runs of equal indices)
         let indices = self.indices();

@@ -1,4 +1,4 @@
-//! Which sine terms carry the plate's displacements. DP Eqs. (3a-c).
+//! The sine terms that carry the plate's displacements. DP Eqs. (3a-c).
 //!
 //! # Departures from the paper
 //! The paper announces 16 degrees of freedom and prints 14 names, one of them (`u_{1,2}`) among the

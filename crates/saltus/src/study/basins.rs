@@ -1,17 +1,17 @@
-//! Basins of attraction: which of several attractors a start leads to, told by the motions themselves.
+//! Basins of attraction: which of several attractors a start leads to, judged by the motions themselves.
 //!
 //! Cycles are the same if they have the same period and their samples agree within [`SAME`] after some
 //! rotation: all starts are at phase 0 of the drive, so the n shifts of an n-cycle are one attractor
 //! reached with different delays. Motions that do not repeat are the same if the ranges of z and of v
 //! at the samples overlap by more than half of the shorter one, for every body. A finite record of chaos
-//! shows its band only roughly, so this rather joins two such attractors than invents one.
+//! shows its band only roughly, so this joins two such attractors sooner than it invents one.
 
 use super::attractor::{Attractor, Range};
 use saltus_orbits::MotionKind;
 
 /// Samples that differ by no more than this (eta) may be of one cycle; twice what
 /// a slow transient is allowed to leave of each, and as much again.
-pub const SAME: f64 = 4e-3;
+const SAME: f64 = 4e-3;
 
 /// The attractors met so far.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,7 +24,7 @@ pub struct Catalogue {
 pub struct Entry {
     /// The motion that came closest to it.
     pub attractor: Attractor,
-    /// How many starts led to it.
+    /// Number of starts that led to it.
     pub count: u64,
     /// Number of the first start that led to it.
     pub first: usize,

@@ -11,7 +11,9 @@ use saltus_hybrid::Point;
 use saltus_orbits::MotionKind;
 use std::collections::BTreeSet;
 
-/// What all starts of a box came to. The counts add up to the number of starts.
+use crate::model::ModelError;
+
+/// Ends of all starts of a box. The counts add up to the number of starts.
 ///
 /// An attractor that no start met is not in the list; [`Fraction::unseen`] bounds its share.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -25,7 +27,7 @@ pub struct Census {
     pub undecided: Fraction,
     /// Starts whose run ended early.
     pub lost: Fraction,
-    /// Why the first of them did.
+    /// Reason why the first of them did.
     pub first_lost: Option<Lost>,
 }
 
@@ -49,10 +51,34 @@ pub struct Counted {
 pub struct Transient {
     /// Part of the starts that were in it when their search was over. They count for the attractor that it ends on.
     pub fraction: Fraction,
-    /// How long it lasts.
+    /// Record of how long it lasts.
     pub survival: Survival,
     /// Place in [`Census::attractors`] of the one that most of the watched motions ended on.
     pub to: usize,
+}
+
+/// The attractors at one value of a parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// The value of the parameter.
+    pub value: f64,
+    /// The attractors there, or why there is no model.
+    pub census: Result<Census, ModelError>,
+}
+
+impl Row {
+    /// The attractors there; none without a model.
+    pub fn attractors(&self) -> &[Counted] {
+        self.census
+            .as_ref()
+            .map_or(&[], |census| &census.attractors)
+    }
+
+    pub(super) fn attractors_mut(&mut self) -> &mut [Counted] {
+        self.census
+            .as_mut()
+            .map_or(&mut [], |census| &mut census.attractors)
+    }
 }
 
 /// A census under way.
@@ -111,7 +137,7 @@ impl Tally {
         }
     }
 
-    /// How many attractors there are.
+    /// Number of attractors.
     pub(super) fn len(&self) -> usize {
         self.arrivals.len()
     }
@@ -121,7 +147,7 @@ impl Tally {
         &self.arrivals[number].point
     }
 
-    /// What kind of motion attractor `number` is.
+    /// Kind of motion of attractor `number`.
     pub(super) fn kind(&self, number: usize) -> MotionKind {
         self.catalogue.entries()[number].attractor.kind
     }

@@ -1,4 +1,4 @@
-//! Which cycle is a motion on, or coming to? Newton's method and the Floquet multipliers tell.
+//! The cycle that a motion is on, or coming to, by Newton's method and the Floquet multipliers.
 //!
 //! Samples cannot tell a period from its half where a multiplier is near -1, since the motion then comes back far
 //! better after twice the period; nor a stable cycle from an unstable one, if the motion was carried to it. An orbit
@@ -9,7 +9,7 @@
 use saltus_hybrid::{Leg, Point, record};
 use saltus_orbits::{NewtonOptions, Orbit, Place, Samples, find_orbit};
 
-use super::attractor::{coordinates, width};
+use super::coordinates::{coordinates, width};
 use super::recording::rounded;
 use super::{Control, place, point, stroboscopic};
 use crate::model::Model;
@@ -26,7 +26,7 @@ const STABLE: f64 = 1.0 - 1e-7;
 /// Periods that are tried at most: a cascade of doublings passes through no more with samples this close.
 const TRIES: usize = 5;
 
-/// How far a motion is moved off an unstable cycle, in the units of the model.
+/// Distance by which a motion is moved off an unstable cycle, in the units of the model.
 const KICK: f64 = 1e-3;
 
 /// The cycle that a motion is near.
@@ -35,7 +35,7 @@ pub(super) enum Near {
     Stable(Orbit),
     /// Unstable, and the motion is on it.
     Unstable(Orbit),
-    /// None of at most 32 periods.
+    /// No cycle of at most 32 periods.
     Nothing,
 }
 
@@ -102,7 +102,7 @@ pub(super) fn beside(model: &Model, orbit: &Orbit) -> Point {
     point(model, &beside)
 }
 
-/// How far a motion was from a cycle, at the same phases.
+/// Distances of a motion from a cycle, at the same phases.
 struct Distances {
     /// The largest distance (eta) in each quarter of the samples, the last first.
     blocks: [f64; 4],

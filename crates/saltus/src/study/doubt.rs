@@ -1,4 +1,4 @@
-//! What is a motion without a period? Its tangent is followed until the largest exponent tells.
+//! The kind of a motion without a period: its tangent is followed until the largest exponent tells.
 //!
 //! The verdict is [`judge`]'s, asked for whenever the record has doubled; samples go on to be taken, so a cycle
 //! that is reached meanwhile is found, and confirmed by its multipliers. Systems with and without tangents cannot
@@ -9,10 +9,12 @@ use std::sync::OnceLock;
 use saltus_hybrid::{End, Leg, Method, Point, Sample, Status, System, Task, integrate_stream};
 use saltus_orbits::{Criteria, MotionKind, Samples, Spectrum, Verdict, judge};
 
-use super::attractor::{Found, Lost, Refused, coordinates, width};
+use super::attractor::{Found, Lost};
 use super::confirm::{self, Near};
+use super::coordinates::{coordinates, width};
+use super::ensemble::{Control, Refused, StudyError};
 use super::recording::around;
-use super::{Control, Search, StudyError};
+use super::search::Search;
 use crate::model::{Model, ModelError};
 
 /// Periods in which the column turns into its direction.
@@ -154,7 +156,7 @@ where
     }
 }
 
-/// Why a motion is not run on.
+/// Reasons why a motion is not run on.
 enum Refusal {
     /// Its system has another program than the others'.
     Later,

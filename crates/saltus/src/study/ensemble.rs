@@ -1,4 +1,4 @@
-//! What all studies share: how to run, how to stop, how to report progress, what can go wrong.
+//! Common ground of all studies: running, stopping, reporting progress, and errors.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -8,7 +8,7 @@ use saltus_orbits::ExponentError;
 
 use crate::model::ModelError;
 
-/// How a study runs, beside the question it asks.
+/// Settings of a run, beside the question it asks.
 #[derive(Clone, Debug, Default)]
 pub struct Control {
     /// Stepper and its limits.
@@ -27,7 +27,7 @@ impl Control {
     }
 }
 
-/// Why a study has no answer.
+/// Errors of a study that has no answer.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum StudyError {
@@ -67,5 +67,26 @@ impl StudyError {
     /// Whether the study was stopped from outside.
     pub fn is_interrupt(&self) -> bool {
         matches!(self, Self::Integrate(IntegrateError::Interrupted))
+    }
+}
+
+/// An error of the engine or of the sink.
+pub(super) enum Refused<E> {
+    Engine(IntegrateError),
+    Sink(E),
+}
+
+impl<E: From<StudyError>> Refused<E> {
+    pub(super) fn into_error(self) -> E {
+        match self {
+            Self::Engine(error) => StudyError::from(error).into(),
+            Self::Sink(error) => error,
+        }
+    }
+}
+
+impl<E> From<IntegrateError> for Refused<E> {
+    fn from(error: IntegrateError) -> Self {
+        Self::Engine(error)
     }
 }

@@ -18,11 +18,11 @@ pub struct Growth {
     pub spectrum: Spectrum,
     /// Time integral of the divergence over each recorded period: see [`Model::divergence`].
     pub divergences: Vec<f64>,
-    /// How the run ended; the record goes as far as the run.
+    /// Status at the end; the record goes as far as the run.
     pub status: Status,
-    /// Where it ended.
+    /// Last state.
     pub end: Point,
-    /// The cycle that the motion has come to; none for other motions, or if nobody looked.
+    /// The cycle that the motion has come to; `None` for other motions, or if it was not sought.
     pub cycle: Option<Orbit>,
 }
 
@@ -71,10 +71,10 @@ pub fn growth(
     Ok(climbed.into_iter().zip(divergences).map(told).collect())
 }
 
-/// How to measure the exponents of one motion.
+/// Lengths of a measurement of the exponents of one motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measurement {
-    /// How many exponents, the largest first.
+    /// Number of exponents, the largest first.
     pub exponents: usize,
     /// Forcing periods left out before the first replica.
     pub transient: u64,
@@ -93,10 +93,10 @@ impl Measurement {
 }
 
 /// The exponents of the motion that `start` leads to, from replicas: pieces of it, one after the other, whose tangents
-/// are followed side by side. None has seen what another has, and all are on one attractor whatever others there are.
+/// are followed side by side. No two of them have periods in common, and all are on one attractor whatever others there are.
 /// Together they are one long record, which tells what changes more slowly than one piece is long.
 ///
-/// Where the motion has come to a cycle, [`Growth::cycle`] is that.
+/// If the motion has come to a cycle, [`Growth::cycle`] is that.
 ///
 /// # Errors
 /// As [`growth`].

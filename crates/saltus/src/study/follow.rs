@@ -18,8 +18,8 @@ use saltus_orbits::MotionKind;
 use std::collections::BTreeMap;
 use std::sync::atomic::Ordering;
 
-use super::census::{Census, Tally};
-use super::lineages::{Lineages, Row};
+use super::census::{Census, Row, Tally};
+use super::lineages::Lineages;
 use super::matching::{Links, Node, Way};
 use super::survival::Survival;
 use super::{Control, Found, Search, Starts, StudyError, attractors};
@@ -97,7 +97,7 @@ const PATIENCE: usize = 8;
 const WATCHED: usize = 8;
 const WATCH: u64 = 12_000;
 
-/// How far apart they start in the first state, in the units of the model: nothing beside the chaos, and forgotten
+/// Distance at which they start in the first state, in the units of the model: nothing beside the chaos, and forgotten
 /// after some hundred periods of it.
 const APART: f64 = 1e-6;
 
@@ -110,7 +110,7 @@ struct Place {
 
 struct Journey<'a> {
     places: Vec<Place>,
-    /// What transients became that looked like attractors; without cycles.
+    /// Ends of transients that looked like attractors; without cycles.
     became: BTreeMap<Node, Node>,
     links: Links,
     /// Chaos that is to be watched.
@@ -171,7 +171,7 @@ impl Journey<'_> {
         Ok(())
     }
 
-    /// What starts 0 to `count` - 1 lead to, in their order.
+    /// Attractors that starts 0 to `count` - 1 lead to, in their order.
     fn run(
         &self,
         search: &Search,
@@ -287,7 +287,7 @@ impl Journey<'_> {
         next
     }
 
-    /// What is to be done for a new attractor: both ways, or first to see whether it is one.
+    /// Errands for a new attractor: both ways, or first to see whether it is one.
     fn depart(&mut self, node: Node) -> Vec<Errand> {
         let tally = &self.places[node.0].tally;
         let errand = self.errand(node);

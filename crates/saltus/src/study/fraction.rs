@@ -5,9 +5,9 @@ use super::Range;
 /// `count` of `of` starts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Fraction {
-    /// How many did.
+    /// Number of starts that did.
     pub count: u64,
-    /// How many were asked.
+    /// Number of all starts.
     pub of: u64,
 }
 

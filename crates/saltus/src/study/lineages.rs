@@ -1,6 +1,6 @@
 //! Attractors along a parameter: where each begins and ends, and loops of hysteresis.
 //!
-//! Where an attractor ends, what it leads to is where it jumps. Hysteresis follows: a motion is carried
+//! A motion on an attractor that ends jumps to the one that it leads to there. Hysteresis follows: a motion is carried
 //! up to the end of its attractor A and jumps to B; carried down again it stays on B, so that below the jump the two
 //! ways differ as far down as A and B both exist.
 
@@ -9,9 +9,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Range;
 use super::attractor::Attractor;
-use super::census::{Census, Counted};
+use super::census::Row;
 use super::matching::{Links, Node, Way, matches};
-use crate::model::ModelError;
 
 /// The attractors along a parameter.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,15 +26,6 @@ pub struct Lineages {
     pub unfinished: usize,
 }
 
-/// One value.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Row {
-    /// The value of the parameter.
-    pub value: f64,
-    /// The attractors there, or why there is no model.
-    pub census: Result<Census, ModelError>,
-}
-
 /// One attractor along the parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Identity {
@@ -43,9 +33,9 @@ pub struct Identity {
     pub first: f64,
     /// Last value at which it was met.
     pub last: f64,
-    /// How it begins; `None` at the first value with a model.
+    /// Its beginning; `None` at the first value with a model.
     pub birth: Option<Turn>,
-    /// How it ends; `None` at the last value with a model.
+    /// Its end; `None` at the last value with a model.
     pub death: Option<Turn>,
 }
 
@@ -138,21 +128,6 @@ impl Lineages {
     }
 }
 
-impl Row {
-    /// The attractors there; none without a model.
-    pub fn attractors(&self) -> &[Counted] {
-        self.census
-            .as_ref()
-            .map_or(&[], |census| &census.attractors)
-    }
-
-    fn attractors_mut(&mut self) -> &mut [Counted] {
-        self.census
-            .as_mut()
-            .map_or(&mut [], |census| &mut census.attractors)
-    }
-}
-
 /// A loop for each pair of which one jumps to the other, as far as both exist.
 fn loops(rows: &[Row], identities: &[Identity], paths: &[Vec<Node>]) -> Vec<Hysteresis> {
     let jump = |turn: Option<Turn>, to: usize| turn.filter(|turn| turn.to == Some(to));
@@ -196,6 +171,7 @@ fn loops(rows: &[Row], identities: &[Identity], paths: &[Vec<Node>]) -> Vec<Hyst
 mod tests {
     use super::super::attractor::Arrival;
     use super::super::basins::Catalogue;
+    use super::super::census::{Census, Counted};
     use super::super::fraction::Fraction;
     use super::*;
     use saltus_hybrid::Point;

@@ -2,7 +2,9 @@
 
 use saltus_hybrid::Point;
 
-use super::attractor::{Found, Search, attractors};
+use super::attractor::Found;
+use super::pursuit::attractors;
+use super::search::Search;
 use super::{Control, StudyError};
 use crate::model::{Model, ModelError};
 

@@ -1,4 +1,4 @@
-//! Which attractors at different values of a parameter are the same.
+//! Matching of attractors at different values of a parameter: which of them are the same.
 //!
 //! An attractor carried to the next value leads to an attractor there. Two are the same
 //! - if each leads to the other; or
@@ -13,13 +13,12 @@
 use saltus_orbits::MotionKind;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::census::Counted;
-use super::lineages::Row;
+use super::census::{Counted, Row};
 
 /// An attractor: place of the value, and place in the census there.
 pub(super) type Node = (usize, usize);
 
-/// Where each attractor leads when it is carried.
+/// Attractors that each attractor leads to when it is carried.
 pub(super) type Links = BTreeMap<(Node, Way), Node>;
 
 /// The way through the values.

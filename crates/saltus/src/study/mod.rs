@@ -1,9 +1,11 @@
 //! Questions asked of models.
 
+mod approach;
 mod attractor;
 mod basins;
 mod census;
 mod confirm;
+mod coordinates;
 mod doubt;
 mod ensemble;
 mod exponents;
@@ -14,9 +16,11 @@ mod map;
 mod matching;
 mod orbits;
 mod peaks;
+mod pursuit;
 mod recording;
 mod recurrence;
 mod rows;
+mod search;
 mod second;
 mod settle;
 mod starts;
@@ -24,22 +28,23 @@ mod survival;
 mod sweep;
 mod trajectory;
 
-pub use attractor::{Arrival, Attractor, Found, Lost, Range, Search, attractors};
-pub use basins::{Catalogue, Entry, SAME};
-pub use census::{Census, Counted, Transient};
+pub use attractor::{Arrival, Attractor, Found, Lost, Range};
+pub use basins::{Catalogue, Entry};
+pub use census::{Census, Counted, Row, Transient};
 pub use ensemble::{Control, StudyError};
 pub use exponents::{Growth, Measurement, growth, lyapunov};
 pub use follow::{census, follow};
 pub use fraction::Fraction;
-pub use lineages::{Hysteresis, Identity, Lineages, Row, Turn};
+pub use lineages::{Hysteresis, Identity, Lineages, Turn};
 pub use map::{Grid, map};
 pub use orbits::{
     ORBIT_METHOD, OrbitError, OrbitSearch, Portrait, orbit, orbit_of, place, point, portrait,
     sequence, stroboscopic,
 };
+pub use pursuit::attractors;
 pub use recurrence::recurrence;
 pub use rows::{Label, exponents, labels};
-pub use saltus_orbits::MAX_PERIOD;
+pub use search::Search;
 pub use second::second_opinion;
 pub use settle::{Settled, settle};
 pub use starts::Starts;

@@ -4,14 +4,16 @@
 use std::f64::consts::TAU;
 
 use saltus_hybrid::{Leg, Method, Options, Point, Status, System, record};
-use saltus_orbits::{Lost, NewtonOptions, NotFound, Orbit, Place, Stroboscopic, find_orbit};
+use saltus_orbits::{
+    Lost, MAX_PERIOD, NewtonOptions, NotFound, Orbit, Place, Stroboscopic, find_orbit,
+};
 
 use super::settle::settle;
 use super::trajectory::{History, TrajectorySwitch, simulate};
-use super::{Control, MAX_PERIOD, StudyError};
+use super::{Control, StudyError};
 use crate::model::{Contact, Model, ModelError, Section};
 
-/// How orbits are integrated, whatever the study says of other motions: 1e-13 leaves residuals of 1e-12, and
+/// Method by which orbits are integrated, whatever the study says of other motions: 1e-13 leaves residuals of 1e-12, and
 /// special points to some 1e-10.
 pub const ORBIT_METHOD: Method = Method::Taylor {
     tolerance: 1e-13,
@@ -47,7 +49,7 @@ where
     Stroboscopic::new(system_at, states, options, threads, &control.stop)
 }
 
-/// Which orbit is meant.
+/// Description of the orbit that is meant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct OrbitSearch {
     /// Forcing periods after which it closes; `None` for those of the long-term motion.
@@ -58,7 +60,7 @@ pub struct OrbitSearch {
     pub segments: Option<usize>,
 }
 
-/// Why no orbit was found.
+/// Reasons why no orbit was found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum OrbitError {
@@ -77,9 +79,9 @@ pub enum OrbitError {
     NoReturn {
         /// Periods run.
         transient: u64,
-        /// After how many periods it comes nearest.
+        /// Periods after which it comes nearest.
         period: usize,
-        /// How near (h, h Omega).
+        /// Distance then (h, h Omega).
         distance: f64,
     },
     /// Newton's method failed.
@@ -225,7 +227,7 @@ pub fn point(model: &Model, place: &Place) -> Point {
     model.system().point(&place.modes, &place.x)
 }
 
-/// What an orbit does to floor and people.
+/// Effect of an orbit on floor and people.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Portrait {
     /// Its points at cos(Omega t) = 1 in the paper's units, one per forcing period.
@@ -234,7 +236,7 @@ pub struct Portrait {
     pub switches: Vec<TrajectorySwitch>,
     /// Part of the time on the floor, of each body.
     pub contact_ratio: Vec<f64>,
-    /// Phases of the drive at which each body lands, in (0, 2 pi] (rad).
+    /// Phases of the drive at each touch-down of each body, in (0, 2 pi] (rad).
     pub landing_phases: Vec<Vec<f64>>,
     /// Largest plate reaction force on each body, in units of its weight.
     pub peak_reaction: Vec<f64>,
@@ -285,7 +287,7 @@ pub fn portrait(model: &Model, orbit: &Orbit, control: &Control) -> Result<Portr
     })
 }
 
-/// The order of the switches of an orbit in letters: T for take-off and L for landing, with the number of the
+/// The order of the switches of an orbit in letters: T for take-off and L for touch-down, with the number of the
 /// body from 1 where there are several; a bar between forcing periods, such as `LT|LT`.
 pub fn sequence(model: &Model, orbit: &Orbit) -> String {
     let several = model.setup().jumpers.len() > 1;

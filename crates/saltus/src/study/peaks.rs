@@ -113,7 +113,7 @@ impl Peaks {
     }
 }
 
-/// Where the parabola through three points has its maximum, if it has one, and how high that is.
+/// Place and height of the maximum of the parabola through three points, if it has one.
 fn vertex([(a, fa), (b, fb), (c, fc)]: [(f64, f64); 3]) -> Option<(f64, f64)> {
     let (left, right) = ((b - a) * (fb - fc), (b - c) * (fb - fa));
     let curvature = left - right;

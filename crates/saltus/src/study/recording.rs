@@ -1,4 +1,4 @@
-//! What a motion does to floor and people, period by period.
+//! The effect of a motion on floor and people, period by period.
 
 use saltus_hybrid::{End, Leg, Point, Sample, Step, Task, integrate};
 use saltus_orbits::{MotionKind, Orbit, Place};
@@ -8,7 +8,7 @@ use super::peaks::Peaks;
 use super::{Control, point};
 use crate::model::{Contact, Model, Probe};
 
-/// What is kept while recording, period by period.
+/// Record of a motion, period by period.
 pub(super) struct Recording {
     probe: Probe,
     peaks: Peaks,

@@ -1,4 +1,4 @@
-//! After how many periods does a section repeat itself?
+//! The number of periods after which a section repeats itself.
 
 /// The smallest n at which every kept sample agrees with the one n periods later to `tolerance`, at
 /// most half the samples; `None` if there is none.

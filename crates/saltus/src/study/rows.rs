@@ -1,4 +1,4 @@
-//! What the motion at the end of each row of a sweep is: its label, and its largest exponents.
+//! The motion at the end of each row of a sweep: its label, and its largest exponents.
 //!
 //! The label goes on from the very state with which the row ended, and the exponents from where the label was
 //! found: all are of the motion that the row shows, also where others coexist. A chaotic transient that ends after
@@ -7,25 +7,26 @@
 use saltus_hybrid::{Point, Status};
 use saltus_orbits::{Exponent, MotionKind};
 
-use super::attractor::{Search, attractors};
+use super::pursuit::attractors;
+use super::search::Search;
 use super::{Control, StudyError, SweepRow, growth};
 use crate::model::{Model, ModelError};
 
-/// What the motion of a row is in the long run.
+/// Name of the motion of a row in the long run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
-    /// What it is; [`MotionKind::Undecided`] also if going on from the row ended early.
+    /// Kind of the motion; [`MotionKind::Undecided`] also if going on from the row ended early.
     pub kind: MotionKind,
     /// The largest Lyapunov exponent (per forcing period), where it took one to say what the motion is.
     pub exponent: Option<Exponent>,
-    /// As in [`Attractor`](super::Attractor): of the test behind the name; `None` for a cycle known by its
+    /// Confidence of the test behind the name, as in [`Attractor`](super::Attractor); `None` for a cycle known by its
     /// returns.
     pub confidence: Option<f64>,
     /// Last state, to go on from; `None` if going on from the row ended early.
     pub end: Option<Point>,
 }
 
-/// Periods in which cycles up to [`MAX_PERIOD`](super::MAX_PERIOD) come back three times and more. The row itself was
+/// Periods in which cycles up to [`saltus_orbits::MAX_PERIOD`] come back three times and more. The row itself was
 /// the transient.
 const RETURNS: u64 = 128;
 

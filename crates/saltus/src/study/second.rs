@@ -15,7 +15,7 @@ use saltus_orbits::{
 /// lie beside a special point.
 const STEP: f64 = 2e-6;
 
-/// How far aside the secant method begins, as a part of the range; nearer where a fold leaves no orbits there. It
+/// Distance at which the secant method begins, as a part of the range; nearer where a fold leaves no orbits there. It
 /// may go as many times as far as the second number says, or it has found another point.
 const ASIDE: [f64; 2] = [1e-6, 1e-8];
 const ASTRAY: f64 = 30.0;
@@ -77,7 +77,7 @@ impl<F: Family> Scene<'_, F> {
         find_orbit(family, &parameters, places, &NewtonOptions::default()).ok()
     }
 
-    /// Where a function of the multipliers vanishes, for the orbit of the period over `share`.
+    /// Zero of a function of the multipliers, for the orbit of the period over `share`.
     fn crossing(&self, share: usize, test: impl Fn(&[Multiplier]) -> Option<f64>) -> Option<f64> {
         let differences = Differences::new(self.family, STEP);
         let places = &self.special.orbit.places;
@@ -88,7 +88,7 @@ impl<F: Family> Scene<'_, F> {
             .find_map(|aside| self.secant(&value, aside * self.range))
     }
 
-    /// Where a function of the parameter vanishes, begun `aside` of the special point, so as not to be told the
+    /// Zero of a function of the parameter, begun `aside` of the special point, so as not to start at the
     /// answer.
     fn secant(&self, value: &impl Fn(f64) -> Option<f64>, aside: f64) -> Option<f64> {
         let mut a = self.special.parameter - aside;
@@ -136,7 +136,7 @@ impl<F: Family> Scene<'_, F> {
         Some(best.0)
     }
 
-    /// Where orbits change the number of their switches.
+    /// Parameter at which orbits change the number of their switches.
     fn grazing(&self) -> Option<f64> {
         let places = &self.special.orbit.places;
         let solve = |at: f64| {

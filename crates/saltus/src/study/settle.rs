@@ -14,7 +14,7 @@ pub struct Settled {
     pub v: Vec<f64>,
     /// Last state.
     pub end: Point,
-    /// How it ended.
+    /// Status at the end.
     pub status: Status,
 }
 

@@ -12,7 +12,7 @@ use crate::model::Model;
 /// A box of states. The plate rests, deflected or not, and each body has the contact state that the law gives it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Starts {
-    /// How many. Start k is the same for any count.
+    /// Number of starts. Start k is the same for any count.
     pub count: usize,
     /// z/eta of every body.
     pub z: Range,

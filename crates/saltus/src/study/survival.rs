@@ -1,4 +1,4 @@
-//! How long chaos lasts, from motions that were watched until they left it or the time was up.
+//! The lifetime of chaos, from motions that were watched until they left it or the time was up.
 //!
 //! Transient chaos ends at a rate that does not depend on how long it has lasted, so in T periods of chaos, all motions
 //! together, the number of those that leave it has Poisson's distribution with mean T / lifetime. The interval is the
@@ -7,9 +7,9 @@
 /// Motions watched in chaos.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Survival {
-    /// How many motions.
+    /// Number of motions.
     pub motions: u32,
-    /// How many of them ended on a stable cycle.
+    /// Number of those that ended on a stable cycle.
     pub ended: u32,
     /// Forcing periods of chaos, all motions together.
     pub periods: u64,

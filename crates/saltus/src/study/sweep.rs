@@ -52,7 +52,7 @@ impl Sweep {
     }
 }
 
-/// What was found at one value in one pass.
+/// Samples and status at one value in one pass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepRow {
     /// Index of the pass in [`Sweep::passes`].
@@ -65,7 +65,7 @@ pub struct SweepRow {
     pub v: Vec<Vec<f64>>,
     /// Part of the kept time each body spent on the floor.
     pub contact_ratio: Vec<f64>,
-    /// How the run ended, or the model's error.
+    /// End of the run, or the model's error.
     pub status: Result<Status, ModelError>,
     /// Last state, to go on from; `None` without a model.
     pub end: Option<Point>,
@@ -149,7 +149,7 @@ where
         .collect())
 }
 
-/// Which sweeps share a structure, so that they can share lanes: a group number for each.
+/// Groups of sweeps that share a structure, so that they can share lanes: a group number for each.
 fn groups<F>(sweeps: &[(Sweep, F)]) -> Vec<usize>
 where
     F: Fn(f64) -> Result<Model, ModelError> + Sync,

@@ -13,7 +13,7 @@ use crate::model::{Contact, EnergyBalance, Model, Observation, Probe, Section};
 pub struct TrajectorySwitch {
     /// Time since the start (s).
     pub time: f64,
-    /// Which jumper.
+    /// Number of the jumper, from 0.
     pub jumper: usize,
     /// The contact entered; `None` for a tangency, where the contact force touches its threshold
     /// and does not cross it.
@@ -25,7 +25,7 @@ pub struct TrajectorySwitch {
 pub struct History {
     /// Times since the start (s).
     pub time: Vec<f64>,
-    /// What was there at each.
+    /// Observation at each.
     pub states: Vec<Observation>,
 }
 
@@ -45,7 +45,7 @@ pub struct Trajectory {
     pub contact_ratio: Vec<Vec<f64>>,
     /// Energy balance of each period, if the model keeps it.
     pub energy: Vec<EnergyBalance>,
-    /// How it ended.
+    /// End of the run.
     pub end: End,
 }
 

@@ -123,7 +123,7 @@ fn labels_are_those_of_the_paper() {
     }
 }
 
-/// What the paper's start leads to.
+/// Motion that the paper's start leads to.
 fn pixel(zeta: f64, ratio: f64, search: &Search) -> Found {
     let model = Setup::dias_del_prado(zeta, ratio).model().expect("valid");
     let start_at = |_| Ok((model.clone(), model.start(3.0, 2.0)));

@@ -92,7 +92,7 @@ fn a_slow_transient_is_no_attractor_and_counts_for_what_it_becomes() {
     assert_eq!(found.attractors[0].fraction.count + without(&found), 24);
 }
 
-/// The attractors that so many starts lead to.
+/// The attractors that `count` starts lead to.
 fn counted(zeta: f64, ratio: f64, count: usize) -> Census {
     let model = model(zeta, ratio).expect("valid");
     census(&model, &starts(count), &Search::default(), &control(0)).expect("runs")
