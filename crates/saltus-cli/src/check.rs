@@ -4,7 +4,7 @@ use crate::args::WorkArgs;
 use crate::ending::Ending;
 use crate::load::load;
 use crate::output;
-use saltus_commands::{Context, Folder, describe, warnings};
+use saltus_commands::{Folder, RunContext, describe, warnings};
 use saltus_config::Study;
 use saltus_results::shown::printable;
 use serde::Serialize;
@@ -21,7 +21,7 @@ struct Report<'a> {
 pub(crate) fn run(args: &WorkArgs) -> Result<(), Ending> {
     let study = load(&args.study, &[])?;
     if let Some(out) = &args.output.out {
-        Folder::stage(out, None, &study, &Context::default())?.commit()?;
+        Folder::stage(out, None, &study, &RunContext::default())?.commit()?;
     }
     let file = args.study.file.display().to_string();
     if args.output.json {

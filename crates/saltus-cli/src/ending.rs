@@ -10,7 +10,7 @@
 //! | 141 | the reader of standard output closed it (as `head` does); nothing is said |
 
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
-use saltus_commands::Failure;
+use saltus_commands::CommandError;
 use saltus_config::StudyErrorKind;
 use saltus_results::ResultsError;
 use saltus_results::shown::{path, printable_lines};
@@ -41,7 +41,7 @@ pub(crate) enum Ending {
     Usage,
     /// There is no answer.
     #[error(transparent)]
-    Failure(#[from] Failure),
+    CommandError(#[from] CommandError),
     /// Standard output refused.
     #[error("cannot write standard output: {0}")]
     Output(String),
@@ -60,7 +60,7 @@ pub(crate) enum Ending {
 
 impl From<ResultsError> for Ending {
     fn from(error: ResultsError) -> Self {
-        Failure::from(error).into()
+        CommandError::from(error).into()
     }
 }
 
@@ -68,21 +68,21 @@ impl Ending {
     fn code(&self) -> u8 {
         match self {
             Self::Usage => 2,
-            Self::Failure(failure) => code(failure),
+            Self::CommandError(failure) => code(failure),
             Self::Output(_) | Self::OutputElsewhere { .. } => 3,
             Self::ClosedPipe => 141,
         }
     }
 }
 
-fn code(failure: &Failure) -> u8 {
+fn code(failure: &CommandError) -> u8 {
     match failure {
-        Failure::Lost(reason) | Failure::Elsewhere { reason, .. } => code(reason),
-        Failure::Study(error) if error.kind() == StudyErrorKind::Unreadable => 3,
-        Failure::Computation { .. } | Failure::Results(ResultsError::Png { .. }) => 1,
-        Failure::Study(_) | Failure::Refused { .. } => 2,
-        Failure::Work { .. } | Failure::Incomplete { .. } | Failure::Results(_) => 3,
-        Failure::Interrupted | Failure::Suspended { .. } => 130,
+        CommandError::Lost(reason) | CommandError::Elsewhere { reason, .. } => code(reason),
+        CommandError::Study(error) if error.kind() == StudyErrorKind::Unreadable => 3,
+        CommandError::Computation { .. } | CommandError::Results(ResultsError::Png { .. }) => 1,
+        CommandError::Study(_) | CommandError::Refused { .. } => 2,
+        CommandError::Work { .. } | CommandError::Incomplete { .. } | CommandError::Results(_) => 3,
+        CommandError::Interrupted | CommandError::Suspended { .. } => 130,
     }
 }
 
@@ -109,7 +109,7 @@ impl Diagnostic for Told {
 impl From<&Ending> for Told {
     fn from(ending: &Ending) -> Self {
         let help = match ending {
-            Ending::Failure(failure) => failure.help(),
+            Ending::CommandError(failure) => failure.help(),
             _ => None,
         };
         Self {
@@ -127,7 +127,7 @@ pub(crate) fn finish(outcome: Result<(), Ending>) -> u8 {
     match &ending {
         Ending::Usage | Ending::ClosedPipe => {}
         // with the line of the file
-        Ending::Failure(Failure::Study(error)) => tell(error),
+        Ending::CommandError(CommandError::Study(error)) => tell(error),
         other => tell(&Told::from(other)),
     }
     ending.code()
@@ -162,21 +162,21 @@ fn tell(diagnostic: &dyn Diagnostic) {
 #[cfg(test)]
 mod tests {
     use super::{Ending, HELP};
-    use saltus_commands::Failure;
+    use saltus_commands::CommandError;
 
     #[test]
     fn every_code_is_in_the_help() {
-        let computation = Failure::Computation {
+        let computation = CommandError::Computation {
             message: "x".to_owned(),
             help: None,
         };
         for ending in [
             Ending::Usage,
             computation.into(),
-            Failure::refused("x", "y").into(),
+            CommandError::refused("x", "y").into(),
             Ending::Output("x".to_owned()),
-            Failure::Interrupted.into(),
-            Failure::Suspended {
+            CommandError::Interrupted.into(),
+            CommandError::Suspended {
                 folder: "x".into(),
                 shard: true,
             }

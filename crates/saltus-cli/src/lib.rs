@@ -8,11 +8,11 @@ mod ending;
 mod help;
 mod init;
 mod interrupt;
-mod kept;
 mod load;
 mod output;
 mod progress;
 mod run;
+mod saved;
 mod schema;
 
 use std::ffi::OsString;

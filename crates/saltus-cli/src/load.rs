@@ -2,7 +2,7 @@
 
 use crate::args::StudyArgs;
 use crate::ending::Ending;
-use saltus_commands::Failure;
+use saltus_commands::CommandError;
 use saltus_config::Study;
 use std::io;
 use std::path::Path;
@@ -15,5 +15,5 @@ pub(crate) fn load(args: &StudyArgs, more: &[String]) -> Result<Study, Ending> {
     } else {
         saltus_config::load(&args.file, &sets)
     };
-    Ok(study.map_err(Failure::from)?)
+    Ok(study.map_err(CommandError::from)?)
 }

@@ -2,7 +2,7 @@
 
 use crate::output;
 use indicatif::{ProgressBar, ProgressStyle};
-use saltus_commands::{Stage, Watch};
+use saltus_commands::{Progress, Stage};
 use std::io::{self, IsTerminal};
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
@@ -43,7 +43,7 @@ impl Bars {
     }
 }
 
-impl Watch for Bars {
+impl Progress for Bars {
     fn begin(&self, stage: Stage) {
         if self.quiet || !io::stderr().is_terminal() {
             return;

@@ -8,9 +8,10 @@ use crate::ending::Ending;
 use crate::load::load;
 use crate::output::tell;
 use crate::progress::Bars;
-use crate::{check, init, interrupt, kept, output, schema};
+use crate::{check, init, interrupt, output, saved, schema};
 use saltus_commands::{
-    Answer, Context, Destination, Failure, Found, Keep, Labelled, Place, Request, Shard,
+    Answer, CommandError, Destination, Existing, Labelled, Pieces, PiecesAt, Request, RunContext,
+    Shard,
 };
 use saltus_config::Study;
 use std::time::Instant;
@@ -31,8 +32,8 @@ pub(crate) fn run(command: Command) -> Result<(), Ending> {
         Command::Continue(args) => continuation(&args),
         Command::Lyapunov(args) => work(&Request::Lyapunov, &args),
         Command::Attractors(args) => work(&Request::Attractors, &args),
-        Command::Cite(args) => kept::cite(&args),
-        Command::Rerun(args) => kept::rerun(&args),
+        Command::Cite(args) => saved::cite(&args),
+        Command::Rerun(args) => saved::rerun(&args),
     }
 }
 
@@ -40,7 +41,7 @@ pub(crate) fn run(command: Command) -> Result<(), Ending> {
 struct How<'a> {
     output: &'a OutputArgs,
     threads: &'a ThreadArgs,
-    keep: Option<Keep>,
+    keep: Option<Pieces>,
 }
 
 fn work(request: &Request, args: &WorkArgs) -> Result<(), Ending> {
@@ -68,12 +69,12 @@ fn simulate(args: &SimulateArgs) -> Result<(), Ending> {
 fn divided(request: &Request, args: &DividedArgs) -> Result<(), Ending> {
     let study = load(&args.work.study, &[])?;
     let found = match (args.merge, args.resume) {
-        (true, _) => Found::Merge,
-        (_, true) => Found::Resume,
-        _ => Found::InTheWay,
+        (true, _) => Existing::Merge,
+        (_, true) => Existing::Resume,
+        _ => Existing::Refuse,
     };
-    let place = args.work.output.out.clone().map(Place::Beside);
-    let keep = place.map(|place| Keep { place, found });
+    let place = args.work.output.out.clone().map(PiecesAt::Beside);
+    let keep = place.map(|place| Pieces { place, found });
     let how = How {
         output: &args.work.output,
         threads: &args.work.threads,
@@ -125,8 +126,8 @@ fn reproduce(args: &ReproduceArgs) -> Result<(), Ending> {
 }
 
 impl How<'_> {
-    fn context<'a>(&self, bars: &'a Bars) -> Context<'a> {
-        Context {
+    fn context<'a>(&self, bars: &'a Bars) -> RunContext<'a> {
+        RunContext {
             threads: self.threads.threads.map_or(0, usize::from),
             stop: interrupt::flag(),
             watch: bars,
@@ -138,7 +139,7 @@ impl How<'_> {
         &self,
         request: &'a Request,
         study: &'a Study,
-        context: &'a Context<'a>,
+        context: &'a RunContext<'a>,
     ) -> Destination<'a> {
         Destination {
             request,
@@ -173,7 +174,7 @@ fn answer(request: &Request, study: &Study, how: &How) -> Result<(), Ending> {
     if let Some(out) = out {
         match destination.store(out, answer.as_ref()) {
             Ok(()) => answer.stored()?,
-            Err(failure @ (Failure::Interrupted | Failure::Suspended { .. })) => {
+            Err(failure @ (CommandError::Interrupted | CommandError::Suspended { .. })) => {
                 return Err(failure.into());
             }
             Err(failure) => {

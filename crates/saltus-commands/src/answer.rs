@@ -1,6 +1,6 @@
 //! What was found: its numbers, described once, and what people are shown of them.
 
-use crate::failure::Failure;
+use crate::failure::CommandError;
 use crate::store::Store;
 use saltus_config::Study;
 use saltus_results::{Dataset, Document, Figure};
@@ -9,7 +9,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 /// Takes figures, each under its name.
-pub type Take<'a> = &'a mut dyn FnMut(&str, &Figure) -> Result<(), Failure>;
+pub type Take<'a> = &'a mut dyn FnMut(&str, &Figure) -> Result<(), CommandError>;
 
 /// What is told at the end of a command.
 pub trait Told {
@@ -38,7 +38,7 @@ pub trait Answer: Send + Sync {
     ///
     /// # Errors
     /// Those of `take`.
-    fn draw(&self, take: Take) -> Result<(), Failure> {
+    fn draw(&self, take: Take) -> Result<(), CommandError> {
         let _ = take;
         Ok(())
     }
@@ -66,15 +66,20 @@ pub trait Answer: Send + Sync {
     /// Hands over what is no document: `data` under the name `dataset`, figures, texts.
     ///
     /// # Errors
-    /// [`Failure`] where the store refuses or a figure cannot be drawn.
-    fn fill(&self, store: &mut dyn Store, dataset: &str, data: Dataset) -> Result<(), Failure> {
+    /// [`CommandError`] where the store refuses or a figure cannot be drawn.
+    fn fill(
+        &self,
+        store: &mut dyn Store,
+        dataset: &str,
+        data: Dataset,
+    ) -> Result<(), CommandError> {
         self.draw(&mut |name, figure| store.put_figure(name, figure))?;
         // the last, since it is the largest and goes away with it
         store.put_dataset(dataset, data)
     }
 
     /// Why it is not all that was asked for, if so: a motion that ended early, as far as it came.
-    fn shortfall(&self) -> Option<Failure> {
+    fn shortfall(&self) -> Option<CommandError> {
         None
     }
 
@@ -86,8 +91,8 @@ pub trait Answer: Send + Sync {
     /// Removes the pieces: the answer is stored.
     ///
     /// # Errors
-    /// [`Failure::Results`] if they cannot be removed.
-    fn stored(&mut self) -> Result<(), Failure> {
+    /// [`CommandError::Results`] if they cannot be removed.
+    fn stored(&mut self) -> Result<(), CommandError> {
         Ok(())
     }
 }

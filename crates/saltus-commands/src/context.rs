@@ -1,6 +1,6 @@
 //! Who asks: how many threads work, what stops them, who watches.
 
-use crate::failure::Failure;
+use crate::failure::CommandError;
 use saltus::study::Control;
 use saltus_config::Study;
 use std::path::PathBuf;
@@ -8,29 +8,29 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 /// How a question is worked on. None of it changes an answer.
-pub struct Context<'a> {
+pub struct RunContext<'a> {
     /// Threads; 0 for as many as the machine has.
     pub threads: usize,
     /// Raised to stop the work at its next step.
     pub stop: Arc<AtomicBool>,
     /// Told how far the work has come.
-    pub watch: &'a dyn Watch,
+    pub watch: &'a dyn Progress,
     /// Where finished pieces of work that can be cut are kept; nowhere by default.
-    pub keep: Option<Keep>,
+    pub keep: Option<Pieces>,
 }
 
 /// Pieces of long work: they outlive an interruption, and may come from elsewhere.
 #[derive(Clone, Debug)]
-pub struct Keep {
+pub struct Pieces {
     /// Where they are.
-    pub place: Place,
+    pub place: PiecesAt,
     /// What becomes of those that are there.
-    pub found: Found,
+    pub found: Existing,
 }
 
 /// Where pieces are.
 #[derive(Clone, Debug)]
-pub enum Place {
+pub enum PiecesAt {
     /// In a hidden folder beside this one, the folder of results to be.
     Beside(PathBuf),
     /// In memory, with their numbers, as [`Request::compute`](crate::Request::compute) gave them.
@@ -39,9 +39,9 @@ pub enum Place {
 
 /// What becomes of pieces that are there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Found {
+pub enum Existing {
     /// They are in the way: the work begins anew or not at all. In memory nothing is in the way.
-    InTheWay,
+    Refuse,
     /// The work goes on with those that are whole, and makes the others.
     Resume,
     /// They are put together, and nothing is computed: all must be there and whole.
@@ -60,7 +60,7 @@ pub struct Stage {
 }
 
 /// Someone who is told how far the work has come.
-pub trait Watch: Sync {
+pub trait Progress: Sync {
     /// A part begins. What is done already does not count as fast.
     fn begin(&self, stage: Stage);
 
@@ -75,13 +75,13 @@ pub trait Watch: Sync {
 #[derive(Clone, Copy, Debug)]
 pub struct Unwatched;
 
-impl Watch for Unwatched {
+impl Progress for Unwatched {
     fn begin(&self, _: Stage) {}
     fn end(&self) {}
     fn note(&self, _: &str) {}
 }
 
-impl Default for Context<'_> {
+impl Default for RunContext<'_> {
     fn default() -> Self {
         Self {
             threads: 0,
@@ -92,7 +92,7 @@ impl Default for Context<'_> {
     }
 }
 
-impl Context<'_> {
+impl RunContext<'_> {
     /// Everything about how a study runs: stepper, threads, a way to stop.
     pub(crate) fn control(&self, study: &Study) -> Control {
         Control {
@@ -132,7 +132,7 @@ impl Context<'_> {
         work: impl FnOnce() -> T,
     ) -> T {
         /// Ends the watch also where the work panics.
-        struct Watched<'a>(&'a dyn Watch);
+        struct Watched<'a>(&'a dyn Progress);
         impl Drop for Watched<'_> {
             fn drop(&mut self) {
                 self.0.end();
@@ -148,9 +148,9 @@ impl Context<'_> {
     }
 
     /// `Err` once the work shall stop; asked between parts that do not see it themselves.
-    pub(crate) fn check(&self) -> Result<(), Failure> {
+    pub(crate) fn check(&self) -> Result<(), CommandError> {
         if self.stop.load(Ordering::SeqCst) {
-            Err(Failure::Interrupted)
+            Err(CommandError::Interrupted)
         } else {
             Ok(())
         }

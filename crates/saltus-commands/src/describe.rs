@@ -1,6 +1,6 @@
 //! What a study describes, and what in it is legal but probably not meant.
 
-use crate::failure::Failure;
+use crate::failure::CommandError;
 use saltus::physics::BaseFrequency;
 use saltus_config::{AxisTable, SecondTable, Study};
 use serde::Serialize;
@@ -51,8 +51,8 @@ pub fn warnings(study: &Study) -> Vec<String> {
 /// What a study describes and asks, line by line.
 ///
 /// # Errors
-/// [`Failure::Computation`] if the frequency of the base cannot be computed.
-pub fn describe(study: &Study) -> Result<String, Failure> {
+/// [`CommandError::Computation`] if the frequency of the base cannot be computed.
+pub fn describe(study: &Study) -> Result<String, CommandError> {
     let plate = study.plate();
     let mut text = String::new();
     let mut line = |name: &str, what: String| {
@@ -133,11 +133,11 @@ fn questions(study: &Study) -> Vec<(&'static str, String)> {
         .collect()
 }
 
-fn base(study: &Study) -> Result<String, Failure> {
+fn base(study: &Study) -> Result<String, CommandError> {
     let base = study.base();
     let omega = base
         .omega(&study.plate(), &study.jumpers())
-        .map_err(Failure::computation)?;
+        .map_err(CommandError::computation)?;
     let hertz = omega / std::f64::consts::TAU;
     let reading = match base.frequency {
         BaseFrequency::Hertz(_) => String::new(),

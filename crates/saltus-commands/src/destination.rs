@@ -6,8 +6,8 @@
 
 use crate::about::about;
 use crate::answer::Answer;
-use crate::context::Context;
-use crate::failure::Failure;
+use crate::context::RunContext;
+use crate::failure::CommandError;
 use crate::request::Request;
 use crate::store::Folder;
 use saltus_config::Study;
@@ -22,7 +22,7 @@ pub struct Destination<'a> {
     /// What it is about, as [`Request::study`] gives it.
     pub study: &'a Study,
     /// Who asks.
-    pub context: &'a Context<'a>,
+    pub context: &'a RunContext<'a>,
 }
 
 impl Destination<'_> {
@@ -30,16 +30,16 @@ impl Destination<'_> {
     ///
     /// # Errors
     /// As [`Folder::stage`].
-    pub fn try_out(&self, dir: &Path) -> Result<(), Failure> {
+    pub fn try_out(&self, dir: &Path) -> Result<(), CommandError> {
         self.stage(dir).map(drop)
     }
 
     /// Writes all of `answer` to `dir`.
     ///
     /// # Errors
-    /// [`Failure::Elsewhere`] if that is not possible but another place was; what is wrong with `dir` if none was;
-    /// [`Failure::Interrupted`] or [`Failure::Suspended`] if the work shall stop.
-    pub fn store(&self, dir: &Path, answer: &dyn Answer) -> Result<(), Failure> {
+    /// [`CommandError::Elsewhere`] if that is not possible but another place was; what is wrong with `dir` if none was;
+    /// [`CommandError::Interrupted`] or [`CommandError::Suspended`] if the work shall stop.
+    pub fn store(&self, dir: &Path, answer: &dyn Answer) -> Result<(), CommandError> {
         let beside = dir.parent().unwrap_or(dir);
         let here = beside.as_os_str().is_empty();
         let beside = if here { Path::new(".") } else { beside };
@@ -52,24 +52,24 @@ impl Destination<'_> {
         places: &[&Path],
         dir: &Path,
         answer: &dyn Answer,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), CommandError> {
         let Err(failure) = self.write(dir, answer) else {
             return Ok(());
         };
         match (failure, answer.pieces()) {
-            (Failure::Interrupted, Some(pieces)) => Err(Failure::Suspended {
+            (CommandError::Interrupted, Some(pieces)) => Err(CommandError::Suspended {
                 folder: pieces.to_path_buf(),
                 shard: false,
             }),
-            (Failure::Results(reason), _) if is_of_place(&reason) => {
+            (CommandError::Results(reason), _) if is_of_place(&reason) => {
                 let mut name = dir.file_name().unwrap_or("results".as_ref()).to_owned();
                 name.push("-kept-");
                 let mut kept = places
                     .iter()
                     .filter_map(|place| self.keep_in(place, &name, answer).ok());
-                let reason = Failure::Results(reason);
+                let reason = CommandError::Results(reason);
                 Err(match kept.next() {
-                    Some(folder) => Failure::Elsewhere {
+                    Some(folder) => CommandError::Elsewhere {
                         reason: Box::new(reason),
                         folder,
                     },
@@ -83,8 +83,8 @@ impl Destination<'_> {
     /// Writes all of `answer` to a new folder among the temporary files of the system, and says where.
     ///
     /// # Errors
-    /// [`Failure`] if that is not possible.
-    pub fn keep(&self, answer: &dyn Answer) -> Result<PathBuf, Failure> {
+    /// [`CommandError`] if that is not possible.
+    pub fn keep(&self, answer: &dyn Answer) -> Result<PathBuf, CommandError> {
         let name = format!("saltus-{}-kept-", self.request.name());
         self.keep_in(&std::env::temp_dir(), &name.into(), answer)
     }
@@ -94,7 +94,7 @@ impl Destination<'_> {
         home: &Path,
         name: &OsString,
         answer: &dyn Answer,
-    ) -> Result<PathBuf, Failure> {
+    ) -> Result<PathBuf, CommandError> {
         let mut builder = tempfile::Builder::new();
         builder.prefix(name);
         #[cfg(unix)]
@@ -114,13 +114,13 @@ impl Destination<'_> {
         Ok(folder.keep())
     }
 
-    fn write(&self, dir: &Path, answer: &dyn Answer) -> Result<(), Failure> {
+    fn write(&self, dir: &Path, answer: &dyn Answer) -> Result<(), CommandError> {
         let mut folder = self.stage(dir)?;
         answer.store(self.request, &mut folder)?;
         folder.commit().map(drop)
     }
 
-    fn stage(&self, dir: &Path) -> Result<Folder, Failure> {
+    fn stage(&self, dir: &Path) -> Result<Folder, CommandError> {
         let about = about(self.request, self.study);
         Folder::stage(dir, Some(about), self.study, self.context)
     }

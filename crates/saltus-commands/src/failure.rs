@@ -1,6 +1,6 @@
 //! Why a question has no answer.
 
-use crate::shard::Lack;
+use crate::shard::DefectivePiece;
 use saltus::hybrid::IntegrateError;
 use saltus::model::ModelError;
 use saltus::physics::PhysicsError;
@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 /// Why a command did not do what was asked.
 #[derive(Debug, thiserror::Error)]
-pub enum Failure {
+pub enum CommandError {
     /// Something wrong with the study.
     #[error("{0}")]
     Study(#[from] StudyError),
@@ -51,7 +51,7 @@ pub enum Failure {
     #[error("{}:{}", counted(lacks, *pieces), list(lacks))]
     Incomplete {
         /// What is wrong, piece by piece.
-        lacks: Vec<Lack>,
+        lacks: Vec<DefectivePiece>,
         /// How many pieces there should be.
         pieces: u32,
     },
@@ -65,18 +65,18 @@ pub enum Failure {
     },
     /// All parts of a long computation failed; the reason is that of the first.
     #[error(transparent)]
-    Lost(Box<Failure>),
+    Lost(Box<CommandError>),
     /// The place for an answer failed when it was there. It is kept whole in another.
     #[error("{reason}; the whole answer is kept in `{}` instead", path(folder))]
     Elsewhere {
         /// Why it is not where it should be.
-        reason: Box<Failure>,
+        reason: Box<CommandError>,
         /// Where it is.
         folder: PathBuf,
     },
 }
 
-impl Failure {
+impl CommandError {
     /// A failed computation.
     pub(crate) fn computation(message: impl fmt::Display) -> Self {
         Self::Computation {
@@ -142,7 +142,7 @@ impl Failure {
     }
 }
 
-fn counted(lacks: &[Lack], pieces: u32) -> String {
+fn counted(lacks: &[DefectivePiece], pieces: u32) -> String {
     match lacks.iter().filter(|lack| lack.beyond.is_none()).count() {
         0 => format!("not every file is one of the {pieces} pieces"),
         lacking => format!("{lacking} of {pieces} pieces are not there as they should be"),
@@ -150,7 +150,7 @@ fn counted(lacks: &[Lack], pieces: u32) -> String {
 }
 
 /// One line each.
-fn list(lacks: &[Lack]) -> String {
+fn list(lacks: &[DefectivePiece]) -> String {
     lacks.iter().map(|lack| format!("\n  {lack}")).collect()
 }
 
@@ -170,7 +170,7 @@ pub(crate) fn told<T: fmt::Display>(problems: &[T]) -> String {
     text
 }
 
-impl From<RunError> for Failure {
+impl From<RunError> for CommandError {
     fn from(error: RunError) -> Self {
         match error {
             RunError::Integrate(IntegrateError::Interrupted) => Self::Interrupted,
@@ -180,7 +180,7 @@ impl From<RunError> for Failure {
     }
 }
 
-impl From<OrbitError> for Failure {
+impl From<OrbitError> for CommandError {
     fn from(error: OrbitError) -> Self {
         match error {
             error if error.is_interrupt() => Self::Interrupted,
@@ -190,7 +190,7 @@ impl From<OrbitError> for Failure {
     }
 }
 
-impl From<PhysicsError> for Failure {
+impl From<PhysicsError> for CommandError {
     fn from(error: PhysicsError) -> Self {
         match error {
             PhysicsError::Interrupted => Self::Interrupted,
@@ -199,7 +199,7 @@ impl From<PhysicsError> for Failure {
     }
 }
 
-impl From<ModelError> for Failure {
+impl From<ModelError> for CommandError {
     /// Algebra that fails is a failed computation; all else is a study that says something impossible.
     fn from(error: ModelError) -> Self {
         let message = error.to_string();

@@ -1,9 +1,9 @@
 //! `saltus frequencies`: the plate empty, in its plane, and with the people on it.
 
 use crate::answer::Answer;
-use crate::context::Context;
+use crate::context::RunContext;
 use crate::data::about;
-use crate::failure::Failure;
+use crate::failure::CommandError;
 use crate::quantities as q;
 use saltus_config::Study;
 use saltus_results::{Dataset, Quantity, Table};
@@ -26,7 +26,7 @@ struct Frequencies {
     study: Study,
 }
 
-pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
+pub(crate) fn ask(study: &Study, context: &RunContext) -> Result<Box<dyn Answer>, CommandError> {
     Ok(Box::new(frequencies(study, context)?))
 }
 
@@ -44,7 +44,7 @@ impl Answer for Frequencies {
     }
 }
 
-fn frequencies(study: &Study, context: &Context) -> Result<Frequencies, Failure> {
+fn frequencies(study: &Study, context: &RunContext) -> Result<Frequencies, CommandError> {
     let (plate, jumpers) = (study.plate(), study.jumpers());
     let occupied = plate.occupied(&jumpers)?;
     Ok(Frequencies {

@@ -1,7 +1,7 @@
 //! The questions that a study file can ask, answered: a document, a summary in words, tables, figures and
 //! datasets. What the program writes to a folder and another front end keeps in memory is made here, once.
 //!
-//! No terminal and no arguments: [`Request`] is what is asked, [`Context`] who asks, [`Answer`] what was
+//! No terminal and no arguments: [`Request`] is what is asked, [`RunContext`] who asks, [`Answer`] what was
 //! found, [`Store`] where its parts go.
 
 mod about;
@@ -16,7 +16,6 @@ mod describe;
 mod destination;
 mod failure;
 mod frequencies;
-mod kept;
 mod kinds;
 mod lyapunov;
 mod map;
@@ -30,6 +29,7 @@ mod quantities;
 mod repeats;
 mod reproduce;
 mod request;
+mod saved;
 mod shard;
 mod simulate;
 mod status;
@@ -40,13 +40,13 @@ mod words;
 pub use about::about;
 pub use answer::{Answer, Take, Told};
 pub use citations::{Citation, bibtex, citations};
-pub use context::{Context, Found, Keep, Place, Stage, Unwatched, Watch};
+pub use context::{Existing, Pieces, PiecesAt, Progress, RunContext, Stage, Unwatched};
 pub use continuation::Labelled;
 pub use describe::{describe, warnings};
 pub use destination::Destination;
-pub use failure::Failure;
-pub use kept::{Kept, Rerun};
-pub use pieces::Share;
+pub use failure::CommandError;
+pub use pieces::ShardReport;
 pub use request::Request;
-pub use shard::{Lack, Shard, ShardError};
+pub use saved::{Rerun, SavedResult};
+pub use shard::{DefectivePiece, Shard, ShardError};
 pub use store::{Fill, Folder, Store};

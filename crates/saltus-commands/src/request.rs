@@ -1,10 +1,10 @@
 //! What can be asked of a study, and what every answer can tell.
 
 use crate::answer::Answer;
-use crate::context::Context;
+use crate::context::RunContext;
 use crate::continuation::Labelled;
-use crate::failure::Failure;
-use crate::pieces::{Divided, Share};
+use crate::failure::CommandError;
+use crate::pieces::{Divided, ShardReport};
 use crate::quantities as q;
 use crate::shard::Shard;
 use crate::store::Store;
@@ -151,8 +151,8 @@ impl Request {
     /// an earlier result begins at its value of the parameter, and the paper's figures are of its study.
     ///
     /// # Errors
-    /// [`Failure`] if the earlier result cannot be read or does not fit the study.
-    pub fn study(&self, study: &Study) -> Result<Study, Failure> {
+    /// [`CommandError`] if the earlier result cannot be read or does not fit the study.
+    pub fn study(&self, study: &Study) -> Result<Study, CommandError> {
         match self {
             Self::Continue {
                 origin: Some(origin),
@@ -165,9 +165,13 @@ impl Request {
     /// Computes the answer. `study` is what [`Self::study`] gives.
     ///
     /// # Errors
-    /// [`Failure`] if the study does not fit the question, the computation does not get through, or it was
+    /// [`CommandError`] if the study does not fit the question, the computation does not get through, or it was
     /// stopped.
-    pub fn ask(&self, study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
+    pub fn ask(
+        &self,
+        study: &Study,
+        context: &RunContext,
+    ) -> Result<Box<dyn Answer>, CommandError> {
         match self {
             Self::Frequencies => frequencies::ask(study, context),
             Self::Simulate => simulate::ask(study, context),
@@ -184,13 +188,13 @@ impl Request {
 }
 
 /// Work that is shared out: `map`, `basins`, and `sweep` where each value is taken anew. Its pieces come together in
-/// [`Request::ask`] with a [`Keep`](crate::Keep) that says where they are. `study` is what [`Request::study`] gives.
+/// [`Request::ask`] with a [`Pieces`](crate::Pieces) that says where they are. `study` is what [`Request::study`] gives.
 impl Request {
     /// How many pieces there are. It depends on the study alone.
     ///
     /// # Errors
-    /// [`Failure`] if the study does not fit the question, or it cannot be cut.
-    pub fn pieces(&self, study: &Study) -> Result<u32, Failure> {
+    /// [`CommandError`] if the study does not fit the question, or it cannot be cut.
+    pub fn pieces(&self, study: &Study) -> Result<u32, CommandError> {
         Ok(self.divided(study)?.pieces())
     }
 
@@ -198,9 +202,14 @@ impl Request {
     /// No results are written; `context` must say where they will be.
     ///
     /// # Errors
-    /// As [`Self::ask`], [`Self::pieces`]; [`Failure::Results`] if the folder is of other work, or somebody is putting
+    /// As [`Self::ask`], [`Self::pieces`]; [`CommandError::Results`] if the folder is of other work, or somebody is putting
     /// its pieces together.
-    pub fn share(&self, study: &Study, shard: Shard, context: &Context) -> Result<Share, Failure> {
+    pub fn share(
+        &self,
+        study: &Study,
+        shard: Shard,
+        context: &RunContext,
+    ) -> Result<ShardReport, CommandError> {
         self.divided(study)?.share(shard, context)
     }
 
@@ -208,22 +217,22 @@ impl Request {
     /// work: those of their files. They come in the order of their numbers, each once.
     ///
     /// # Errors
-    /// As [`Self::ask`], [`Self::pieces`]; [`Failure::Refused`] if there is no such piece.
+    /// As [`Self::ask`], [`Self::pieces`]; [`CommandError::Refused`] if there is no such piece.
     pub fn compute(
         &self,
         study: &Study,
         pieces: &[u32],
-        context: &Context,
-    ) -> Result<Vec<(u32, Vec<u8>)>, Failure> {
+        context: &RunContext,
+    ) -> Result<Vec<(u32, Vec<u8>)>, CommandError> {
         self.divided(study)?.compute(pieces, context)
     }
 
-    fn divided<'a>(&self, study: &'a Study) -> Result<Box<dyn Divided + 'a>, Failure> {
+    fn divided<'a>(&self, study: &'a Study) -> Result<Box<dyn Divided + 'a>, CommandError> {
         match self {
             Self::Map => map::divided(study),
             Self::Basins { .. } => basins::divided(study),
             Self::Sweep => sweep::divided(study),
-            other => Err(Failure::refused(
+            other => Err(CommandError::refused(
                 format!("the work of `{}` cannot be cut into pieces", other.name()),
                 "that of map, basins and sweep can",
             )),
@@ -235,8 +244,8 @@ impl dyn Answer + '_ {
     /// Hands everything to `store`, the document of `request` first.
     ///
     /// # Errors
-    /// [`Failure`] where the store refuses or a figure cannot be drawn.
-    pub fn store(&self, request: &Request, store: &mut dyn Store) -> Result<(), Failure> {
+    /// [`CommandError`] where the store refuses or a figure cannot be drawn.
+    pub fn store(&self, request: &Request, store: &mut dyn Store) -> Result<(), CommandError> {
         let data = self.data();
         store.put_text(&request.document(), &mut |file| {
             Answer::document(self, &data, file)

@@ -83,7 +83,7 @@ impl fmt::Display for Shard {
 
 /// What is wrong with a piece.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Lack {
+pub struct DefectivePiece {
     /// Its number.
     pub piece: u32,
     /// Its file, if it is one.
@@ -96,7 +96,7 @@ pub struct Lack {
     pub beyond: Option<u32>,
 }
 
-impl fmt::Display for Lack {
+impl fmt::Display for DefectivePiece {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "piece {}", self.piece)?;
         if let Some(file) = &self.file {

@@ -1,7 +1,7 @@
 //! Where the parts of an answer go: files of a folder, or memory.
 
-use crate::context::Context;
-use crate::failure::Failure;
+use crate::context::RunContext;
+use crate::failure::CommandError;
 use saltus_config::Study;
 use saltus_results::{Dataset, Figure, Manifest, ResultFolder, ResultsError, csv, shown};
 use std::io::{self, Write};
@@ -20,30 +20,30 @@ pub trait Store {
     /// A text or a JSON document.
     ///
     /// # Errors
-    /// [`Failure`] if it cannot be kept.
-    fn put_text(&mut self, name: &str, fill: Fill) -> Result<(), Failure>;
+    /// [`CommandError`] if it cannot be kept.
+    fn put_text(&mut self, name: &str, fill: Fill) -> Result<(), CommandError>;
 
     /// A figure; its name has no ending.
     ///
     /// # Errors
-    /// [`Failure`] if it cannot be drawn or kept.
-    fn put_figure(&mut self, name: &str, figure: &Figure) -> Result<(), Failure>;
+    /// [`CommandError`] if it cannot be drawn or kept.
+    fn put_figure(&mut self, name: &str, figure: &Figure) -> Result<(), CommandError>;
 
     /// A dataset and its tables.
     ///
     /// # Errors
-    /// [`Failure`] if it cannot be kept.
-    fn put_dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), Failure>;
+    /// [`CommandError`] if it cannot be kept.
+    fn put_dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), CommandError>;
 }
 
 impl dyn Store + '_ {
     /// Adds a text.
-    pub(crate) fn text(&mut self, name: &str, text: &str) -> Result<(), Failure> {
+    pub(crate) fn text(&mut self, name: &str, text: &str) -> Result<(), CommandError> {
         self.put_text(name, &mut |file| file.write_all(text.as_bytes()))
     }
 
     /// Adds a figure.
-    pub(crate) fn figure(&mut self, name: &str, figure: &Figure) -> Result<(), Failure> {
+    pub(crate) fn figure(&mut self, name: &str, figure: &Figure) -> Result<(), CommandError> {
         self.put_figure(name, figure)
     }
 }
@@ -64,14 +64,14 @@ impl Folder {
     /// hours of work.
     ///
     /// # Errors
-    /// [`Failure::Results`] if the folder cannot be written or holds files of others; [`Failure::Work`] if an answer is
+    /// [`CommandError::Results`] if the folder cannot be written or holds files of others; [`CommandError::Work`] if an answer is
     /// in it and nothing was asked.
     pub fn stage(
         dir: &Path,
         about: Option<serde_json::Value>,
         study: &Study,
-        context: &Context,
-    ) -> Result<Self, Failure> {
+        context: &RunContext,
+    ) -> Result<Self, CommandError> {
         let mut inner = ResultFolder::stage(dir)?;
         match about {
             Some(about) => inner.about(about),
@@ -85,25 +85,25 @@ impl Folder {
     /// Moves everything into place.
     ///
     /// # Errors
-    /// [`Failure::Results`] if that is not possible, [`Failure::Interrupted`] if it shall not be.
-    pub fn commit(self) -> Result<PathBuf, Failure> {
+    /// [`CommandError::Results`] if that is not possible, [`CommandError::Interrupted`] if it shall not be.
+    pub fn commit(self) -> Result<PathBuf, CommandError> {
         self.check()?;
         Ok(self.inner.commit()?)
     }
 
     /// Drawing may take seconds and does not see who stops it.
-    fn check(&self) -> Result<(), Failure> {
+    fn check(&self) -> Result<(), CommandError> {
         if self.stop.load(Ordering::SeqCst) {
-            Err(Failure::Interrupted)
+            Err(CommandError::Interrupted)
         } else {
             Ok(())
         }
     }
 }
 
-fn refuse_answer(dir: &Path) -> Result<(), Failure> {
+fn refuse_answer(dir: &Path) -> Result<(), CommandError> {
     match Manifest::read(dir) {
-        Ok(manifest) if !manifest.about["request"].is_null() => Err(Failure::work(
+        Ok(manifest) if !manifest.about["request"].is_null() => Err(CommandError::work(
             format!(
                 "`{}` holds an answer, which a study alone does not replace",
                 shown::path(dir)
@@ -115,18 +115,18 @@ fn refuse_answer(dir: &Path) -> Result<(), Failure> {
 }
 
 impl Store for Folder {
-    fn put_text(&mut self, name: &str, fill: Fill) -> Result<(), Failure> {
+    fn put_text(&mut self, name: &str, fill: Fill) -> Result<(), CommandError> {
         Ok(self.inner.write_with(name, |file| fill(file))?)
     }
 
-    fn put_figure(&mut self, name: &str, figure: &Figure) -> Result<(), Failure> {
+    fn put_figure(&mut self, name: &str, figure: &Figure) -> Result<(), CommandError> {
         self.check()?;
         self.inner.write(&format!("{name}.svg"), figure.svg())?;
         let png = figure.png(PNG_SCALE)?;
         Ok(self.inner.write(&format!("{name}.png"), png)?)
     }
 
-    fn put_dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), Failure> {
+    fn put_dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), CommandError> {
         for table in dataset.tables().iter().filter(|table| table.is_file()) {
             self.check()?;
             let file = format!("{}.csv", table.name());

@@ -1,12 +1,17 @@
 //! Words that several answers share.
 
-use crate::failure::Failure;
+use crate::failure::CommandError;
 use saltus::model::{Contact, Model};
 use saltus_config::{Parameter, Study};
 
 /// Refuses a key that asks for more Lyapunov exponents than there are; `zero` says what 0 means there.
-pub(crate) fn too_many_exponents(key: &str, asked: usize, states: usize, zero: &str) -> Failure {
-    Failure::refused(
+pub(crate) fn too_many_exponents(
+    key: &str,
+    asked: usize,
+    states: usize,
+    zero: &str,
+) -> CommandError {
+    CommandError::refused(
         format!(
             "{key} = {asked}: there is one exponent per state, and the model has {states} states"
         ),

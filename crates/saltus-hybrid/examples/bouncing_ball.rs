@@ -4,7 +4,7 @@
 
 use std::io::Write as _;
 
-use saltus_hybrid::{Leg, Options, SwitchKind, SystemBuilder, Transition, record};
+use saltus_hybrid::{Options, Segment, SwitchKind, SystemBuilder, Transition, record};
 
 /// Height of the table is a cos t, gravity is 1.
 const AMPLITUDE: f64 = 0.1;
@@ -30,12 +30,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let system = b.build(0.0)?;
 
     let start = system.point(&[0], &[1.5, 0.0]);
-    let leg = Leg {
+    let segment = Segment {
         system,
         start,
         periods: 3,
     };
-    let run = record(&leg, &Options::default())?;
+    let run = record(&segment, &Options::default())?;
     let mut out = std::io::stdout().lock();
     for switch in &run.switches {
         if let SwitchKind::Mode { .. } = switch.kind {

@@ -145,7 +145,7 @@ impl Kernel {
         }
     }
 
-    /// Begins a leg at the state `x`: sizes of its states are not known yet.
+    /// Begins a segment at the state `x`: sizes of its states are not known yet.
     pub(crate) fn begin(&mut self, slot: usize, system: &System, x: &[f64]) {
         self.set_state(slot, x);
         self.sizes

@@ -5,7 +5,9 @@ use crate::polynomial::BernsteinTable;
 use crate::saltation;
 use crate::structure::Watch;
 use crate::system::{Point, System};
-use crate::task::{End, IntegrateError, Leg, Options, Sample, Status, Switch, SwitchKind, Task};
+use crate::task::{
+    End, IntegrateError, Options, Sample, Segment, Status, Switch, SwitchKind, Task,
+};
 
 /// A trajectory under way.
 pub(crate) struct Lane<T> {
@@ -50,28 +52,32 @@ pub(crate) enum Arrival {
 pub(crate) enum Next {
     /// It goes on; the state may have been changed.
     Go,
-    /// The leg is over.
+    /// The segment is over.
     Over(Status),
 }
 
 impl<T: Task> Lane<T> {
-    pub(crate) fn new(task: T, leg: &Leg, options: &Options) -> Result<Self, IntegrateError> {
-        let (got, expected) = (leg.start.x.len(), leg.system.state_len());
-        if got != expected || leg.start.modes.len() != leg.system.unit_count() {
+    pub(crate) fn new(
+        task: T,
+        segment: &Segment,
+        options: &Options,
+    ) -> Result<Self, IntegrateError> {
+        let (got, expected) = (segment.start.x.len(), segment.system.state_len());
+        if got != expected || segment.start.modes.len() != segment.system.unit_count() {
             return Err(IntegrateError::Start { got, expected });
         }
-        let structure = &leg.system.structure;
+        let structure = &segment.system.structure;
         Ok(Self {
             wants_steps: task.wants_steps(),
             task,
-            system: leg.system.clone(),
-            guarded: Guarded::new(structure, &leg.start.modes),
+            system: segment.system.clone(),
+            guarded: Guarded::new(structure, &segment.start.modes),
             time: 0.0,
             period: 0,
-            periods: leg.periods,
+            periods: segment.periods,
             parts: options.samples_per_period,
             part: 0,
-            judge: Judge::new(&leg.system, options.method.error()),
+            judge: Judge::new(&segment.system, options.method.error()),
             instant: (0, f64::NAN),
             later: Vec::new(),
             at_once: 0,
@@ -315,8 +321,8 @@ impl<T: Task> Lane<T> {
         self.recent_switches = 0;
     }
 
-    /// Reports the end of the leg at state `x`; the task's next one, if any, and the task.
-    pub(crate) fn finish(mut self, status: Status, x: &[f64]) -> (T, Option<Leg>) {
+    /// Reports the end of the segment at state `x`; the task's next one, if any, and the task.
+    pub(crate) fn finish(mut self, status: Status, x: &[f64]) -> (T, Option<Segment>) {
         let next = self.task.end(End {
             status,
             point: Point {

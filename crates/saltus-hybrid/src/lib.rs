@@ -40,6 +40,6 @@ pub use record::{RecordedSwitch, Recording, record};
 pub use run::integrate;
 pub use system::{Point, System};
 pub use task::{
-    End, Instructions, IntegrateError, Leg, Method, Minimum, Options, Sample, Status, Step, Switch,
-    SwitchKind, Task,
+    End, Instructions, IntegrateError, Method, Minimum, Options, Sample, Segment, Status, Step,
+    Switch, SwitchKind, Task,
 };

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use crate::run::integrate;
-use crate::task::{End, IntegrateError, Leg, Options, Sample, Step, Switch, Task};
+use crate::task::{End, IntegrateError, Options, Sample, Segment, Step, Switch, Task};
 
 /// Runs all tasks on `threads` threads (0: as many as the machine has) and gives them back in their
 /// order. Tasks are started in order, so put the longest first. The numbers that a task sees are the
@@ -168,7 +168,7 @@ struct Numbered<T> {
 }
 
 impl<T: Task> Task for Numbered<T> {
-    fn begin(&mut self) -> Option<Leg> {
+    fn begin(&mut self) -> Option<Segment> {
         self.task.begin()
     }
     fn sample(&mut self, sample: &Sample<'_>) -> bool {
@@ -186,7 +186,7 @@ impl<T: Task> Task for Numbered<T> {
     fn step(&mut self, step: &Step<'_>) {
         self.task.step(step);
     }
-    fn end(&mut self, end: End) -> Option<Leg> {
+    fn end(&mut self, end: End) -> Option<Segment> {
         self.task.end(end)
     }
 }
@@ -205,13 +205,13 @@ mod tests {
     }
 
     impl Task for Swing<'_> {
-        fn begin(&mut self) -> Option<Leg> {
+        fn begin(&mut self) -> Option<Segment> {
             self.alive.fetch_add(1, Ordering::SeqCst);
             let system = forced_oscillator(0.05, 1.0, 1.1, 0.3);
             let start = system.point(&[0], &[0.25 - self.number as f64 / 100.0, 0.5]);
             // some are long and some have nothing to do
             let periods = (self.number % 7) as u64;
-            (periods > 0).then_some(Leg {
+            (periods > 0).then_some(Segment {
                 system,
                 start,
                 periods,
@@ -221,7 +221,7 @@ mod tests {
             self.last = sample.x.to_vec();
             true
         }
-        fn end(&mut self, _: End) -> Option<Leg> {
+        fn end(&mut self, _: End) -> Option<Segment> {
             None
         }
     }

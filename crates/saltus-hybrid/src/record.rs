@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use crate::run::integrate;
 use crate::system::Point;
-use crate::task::{End, IntegrateError, Leg, Options, Sample, Switch, SwitchKind, Task};
+use crate::task::{End, IntegrateError, Options, Sample, Segment, Switch, SwitchKind, Task};
 
 /// A switch in a [`Recording`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +29,7 @@ pub struct Recording {
 }
 
 struct Recorder {
-    leg: Option<Leg>,
+    segment: Option<Segment>,
     period: f64,
     samples: Vec<Point>,
     switches: Vec<RecordedSwitch>,
@@ -37,8 +37,8 @@ struct Recorder {
 }
 
 impl Task for Recorder {
-    fn begin(&mut self) -> Option<Leg> {
-        self.leg.take()
+    fn begin(&mut self) -> Option<Segment> {
+        self.segment.take()
     }
     fn sample(&mut self, sample: &Sample<'_>) -> bool {
         self.samples.push(Point {
@@ -55,13 +55,13 @@ impl Task for Recorder {
             kind: switch.kind,
         });
     }
-    fn end(&mut self, end: End) -> Option<Leg> {
+    fn end(&mut self, end: End) -> Option<Segment> {
         self.end = Some(end);
         None
     }
 }
 
-/// Runs one leg and keeps its samples and switches.
+/// Runs one segment and keeps its samples and switches.
 ///
 /// # Errors
 /// As [`integrate`].
@@ -75,10 +75,10 @@ impl Task for Recorder {
 /// assert!(matches!(run.end.status, Status::Chattering { .. }));
 /// # Ok::<(), saltus_hybrid::IntegrateError>(())
 /// ```
-pub fn record(leg: &Leg, options: &Options) -> Result<Recording, IntegrateError> {
+pub fn record(segment: &Segment, options: &Options) -> Result<Recording, IntegrateError> {
     let recorder = Recorder {
-        period: leg.system.period(),
-        leg: Some(leg.clone()),
+        period: segment.system.period(),
+        segment: Some(segment.clone()),
         samples: Vec::new(),
         switches: Vec::new(),
         end: None,

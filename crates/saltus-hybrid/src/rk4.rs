@@ -13,7 +13,7 @@ use crate::lane::{Arrival, Lane, Next};
 use crate::polynomial::BernsteinTable;
 use crate::series::{Series, expand, values};
 use crate::structure::{Structure, Watch};
-use crate::task::{IntegrateError, Leg, Options, Status, Step, Task, check_stop};
+use crate::task::{IntegrateError, Options, Segment, Status, Step, Task, check_stop};
 
 /// Degree of the interpolant.
 const HERMITE: usize = 3;
@@ -26,29 +26,29 @@ pub(crate) fn run<T: Task>(
     stop: &AtomicBool,
 ) -> Result<T, IntegrateError> {
     let mut next = task.begin();
-    while let Some(leg) = next {
-        (task, next) = run_leg(options, steps_per_period, task, &leg, stop)?;
+    while let Some(segment) = next {
+        (task, next) = run_segment(options, steps_per_period, task, &segment, stop)?;
     }
     Ok(task)
 }
 
-fn run_leg<T: Task>(
+fn run_segment<T: Task>(
     options: &Options,
     steps_per_period: u32,
     task: T,
-    leg: &Leg,
+    segment: &Segment,
     stop: &AtomicBool,
-) -> Result<(T, Option<Leg>), IntegrateError> {
-    let structure = Arc::clone(&leg.system.structure);
+) -> Result<(T, Option<Segment>), IntegrateError> {
+    let structure = Arc::clone(&segment.system.structure);
     let mut run = Run {
         options,
         steps_per_period,
         table: BernsteinTable::new(HERMITE),
-        lane: Lane::new(task, leg, options)?,
-        stepper: Stepper::new(&structure, leg.system.period),
+        lane: Lane::new(task, segment, options)?,
+        stepper: Stepper::new(&structure, segment.system.period),
         structure,
-        x: leg.start.x.clone(),
-        sizes: vec![0.0; leg.start.x.len()],
+        x: segment.start.x.clone(),
+        sizes: vec![0.0; segment.start.x.len()],
         slot: 1,
         dense: Vec::new(),
     };
@@ -63,7 +63,7 @@ fn run_leg<T: Task>(
     }
 }
 
-/// A leg under way.
+/// A segment under way.
 struct Run<'a, T> {
     options: &'a Options,
     steps_per_period: u32,
@@ -80,7 +80,7 @@ struct Run<'a, T> {
 }
 
 impl<T: Task> Run<'_, T> {
-    /// Steps to the next point of the grid, sample or switch; `Some` if the leg is over. `x` is then its last state.
+    /// Steps to the next point of the grid, sample or switch; `Some` if the segment is over. `x` is then its last state.
     fn step(&mut self) -> Option<Status> {
         let period = self.lane.system.period;
         let grid = period * f64::from(self.slot) / f64::from(self.steps_per_period);

@@ -9,7 +9,7 @@ use crate::{rk4, taylor};
 /// The numbers that a task sees do not depend on its neighbours, to the bit.
 ///
 /// # Errors
-/// [`IntegrateError`] for options out of range, legs that do not fit together, and a raised `stop`.
+/// [`IntegrateError`] for options out of range, segments that do not fit together, and a raised `stop`.
 pub fn integrate<T: Task>(
     options: &Options,
     tasks: impl IntoIterator<Item = T>,

@@ -52,7 +52,7 @@ impl Sizes {
         }
     }
 
-    /// Begins a leg on a lane with these scales; a lane without any is idle.
+    /// Begins a segment on a lane with these scales; a lane without any is idle.
     pub(crate) fn begin(&mut self, lane: usize, scales: &[f64], together: bool) {
         self.together.0[lane] = f64::from(u8::from(together));
         self.unknown[lane] = !together && !scales.is_empty();

@@ -1,4 +1,4 @@
-//! The words of a run: options, tasks and the legs they are made of, and the samples, steps, switches and ends
+//! The words of a run: options, tasks and the segments they are made of, and the samples, steps, switches and ends
 //! that tasks see.
 
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -118,7 +118,7 @@ impl Default for Options {
 
 /// One trajectory to run.
 #[derive(Clone, Debug)]
-pub struct Leg {
+pub struct Segment {
     /// The system, with its parameters.
     pub system: System,
     /// First state, at phase 0 of the drive.
@@ -297,7 +297,7 @@ impl Status {
     }
 }
 
-/// The end of one leg, with the work done.
+/// The end of one segment, with the work done.
 #[derive(Clone, Debug, PartialEq)]
 pub struct End {
     /// Completed, or the reason why not.
@@ -314,11 +314,11 @@ pub struct End {
     pub tangencies: u64,
 }
 
-/// The work of one lane: a leg, or a chain of legs each of which may start where the last ended.
+/// The work of one lane: a segment, or a chain of segments each of which may start where the last ended.
 pub trait Task: Send {
-    /// The first leg; `None` if there is nothing to do.
-    fn begin(&mut self) -> Option<Leg>;
-    /// Called at each sample, as at the end of each period; return `false` to end the leg here.
+    /// The first segment; `None` if there is nothing to do.
+    fn begin(&mut self) -> Option<Segment>;
+    /// Called at each sample, as at the end of each period; return `false` to end the segment here.
     fn sample(&mut self, sample: &Sample<'_>) -> bool;
     /// Called after [`Self::sample`] with the tangent columns, one after the other, if the system has
     /// any; they may be changed, such as to be kept apart from each other.
@@ -337,8 +337,8 @@ pub trait Task: Send {
     fn step(&mut self, step: &Step<'_>) {
         let _ = step;
     }
-    /// Called at the end of a leg; the next leg if there is one. All legs of a run share one structure.
-    fn end(&mut self, end: End) -> Option<Leg>;
+    /// Called at the end of a segment; the next segment if there is one. All segments of a run share one structure.
+    fn end(&mut self, end: End) -> Option<Segment>;
 }
 
 /// Reason why a run did not begin, or did not finish. The fate of a trajectory is a [`Status`] instead.
@@ -355,7 +355,7 @@ pub enum IntegrateError {
         /// Numbers that are possible.
         expected: &'static str,
     },
-    /// A leg whose system has another program than those it would share lanes with.
+    /// A segment whose system has another program than those it would share lanes with.
     #[error("the systems of one run must have the same structure; only their numbers may differ")]
     Structure,
     /// A start of the wrong length.

@@ -12,7 +12,7 @@ use crate::arith::LANES;
 use crate::event::Firing;
 use crate::kernel::Kernel;
 use crate::lane::{Arrival, Lane, Next};
-use crate::task::{IntegrateError, Leg, Options, Status, Step, Task, check_stop};
+use crate::task::{IntegrateError, Options, Segment, Status, Step, Task, check_stop};
 
 /// Runs all tasks.
 pub(crate) fn run<T: Task>(
@@ -23,12 +23,12 @@ pub(crate) fn run<T: Task>(
     stop: &AtomicBool,
     done: &mut dyn FnMut(T),
 ) -> Result<(), IntegrateError> {
-    // The first leg has the structure of all.
+    // The first segment has the structure of all.
     while let Some(mut task) = tasks.next() {
-        if let Some(leg) = task.begin() {
-            let structure = &leg.system.structure;
+        if let Some(segment) = task.begin() {
+            let structure = &segment.system.structure;
             let kernel = Kernel::new(structure, tolerance, order, options.instructions.level());
-            return Ensemble::new(kernel).run(options, (task, leg), tasks, stop, done);
+            return Ensemble::new(kernel).run(options, (task, segment), tasks, stop, done);
         }
         done(task);
     }
@@ -67,12 +67,12 @@ impl<T: Task> Ensemble<T> {
     fn run(
         mut self,
         options: &Options,
-        (task, leg): (T, Leg),
+        (task, segment): (T, Segment),
         tasks: &mut dyn Iterator<Item = T>,
         stop: &AtomicBool,
         done: &mut dyn FnMut(T),
     ) -> Result<(), IntegrateError> {
-        if let Some(task) = self.occupy(0, task, Some(leg), options)? {
+        if let Some(task) = self.occupy(0, task, Some(segment), options)? {
             done(task);
         }
         for slot in 0..LANES {
@@ -118,22 +118,22 @@ impl<T: Task> Ensemble<T> {
         Ok(())
     }
 
-    /// Runs `leg` on the lane, or gives the task back if there is none left to run.
+    /// Runs `segment` on the lane, or gives the task back if there is none left to run.
     fn occupy(
         &mut self,
         slot: usize,
         mut task: T,
-        mut leg: Option<Leg>,
+        mut segment: Option<Segment>,
         options: &Options,
     ) -> Result<Option<T>, IntegrateError> {
-        while let Some(next) = leg {
+        while let Some(next) = segment {
             let (ours, theirs) = (&self.kernel.structure, &next.system.structure);
             if !Arc::ptr_eq(ours, theirs) && **ours != **theirs {
                 return Err(IntegrateError::Structure);
             }
             let lane = Lane::new(task, &next, options)?;
             if lane.is_over() {
-                (task, leg) = lane.finish(Status::Completed, &next.start.x);
+                (task, segment) = lane.finish(Status::Completed, &next.start.x);
                 continue;
             }
             self.kernel.begin(slot, &next.system, &next.start.x);
@@ -192,7 +192,7 @@ impl<T: Task> Ensemble<T> {
         }
     }
 
-    /// Books the step; `Some` if the leg is over. The state at the end of the leg is then in `x`.
+    /// Books the step; `Some` if the segment is over. The state at the end of the segment is then in `x`.
     #[inline(always)]
     fn book(&mut self, slot: usize, options: &Options) -> Option<Status> {
         let lane = self.lanes[slot].as_mut()?;
@@ -259,7 +259,7 @@ impl<T: Task> Ensemble<T> {
         }
     }
 
-    /// Ends the lane's leg; the task's next leg or the next task takes its place.
+    /// Ends the lane's segment; the task's next segment or the next task takes its place.
     fn retire(
         &mut self,
         slot: usize,

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Sender, channel};
 
 use saltus_hybrid::{
-    End, IntegrateError, Leg, Method, Options, Point, Recording, Sample, Status, Step, System,
+    End, IntegrateError, Method, Options, Point, Recording, Sample, Segment, Status, Step, System,
     SystemBuilder, Task, Transition, integrate, integrate_all, record, testing,
 };
 
@@ -33,18 +33,22 @@ type Orbit = Box<dyn Fn(f64) -> f64 + Send + Sync>;
 /// A system, a start, and its first state in closed form.
 struct Case {
     name: &'static str,
-    leg: Leg,
+    segment: Segment,
     exact: Orbit,
 }
 
 fn case(name: &'static str, system: System, mode: usize, x: [f64; 2], exact: Orbit) -> Case {
     let start = system.point(&[mode], &x);
-    let leg = Leg {
+    let segment = Segment {
         system,
         start,
         periods: 12,
     };
-    Case { name, leg, exact }
+    Case {
+        name,
+        segment,
+        exact,
+    }
 }
 
 /// x'' + 2 zeta x' + x = a cos(omega t) from rest at 0: no switch.
@@ -170,25 +174,25 @@ fn hopper(zeta: f64, a: f64, omega: f64, energy: bool) -> System {
 }
 
 /// From a height, in flight.
-fn hop(system: System, z: f64, periods: u64) -> Leg {
+fn hop(system: System, z: f64, periods: u64) -> Segment {
     let start = system.point(&[1], &[z, 0.3]);
-    Leg {
+    Segment {
         system,
         start,
         periods,
     }
 }
 
-fn run(leg: &Leg, options: &Options) -> Recording {
-    let recording = record(leg, options).unwrap();
+fn run(segment: &Segment, options: &Options) -> Recording {
+    let recording = record(segment, options).unwrap();
     assert_eq!(recording.end.status, Status::Completed);
     recording
 }
 
 /// Largest error of the first state over all samples.
 fn sample_error(case: &Case, options: &Options) -> f64 {
-    let period = case.leg.system.period();
-    let samples = run(&case.leg, options).samples;
+    let period = case.segment.system.period();
+    let samples = run(&case.segment, options).samples;
     (1..)
         .zip(&samples)
         .map(|(n, p)| (p.x[0] - (case.exact)(f64::from(n) * period)).abs())
@@ -197,15 +201,15 @@ fn sample_error(case: &Case, options: &Options) -> f64 {
 
 /// Error at dense points: 7 in each step, ends left out.
 struct Dense<'a> {
-    leg: Option<Leg>,
+    segment: Option<Segment>,
     exact: &'a Orbit,
     period: f64,
     worst: f64,
 }
 
 impl Task for Dense<'_> {
-    fn begin(&mut self) -> Option<Leg> {
-        self.leg.take()
+    fn begin(&mut self) -> Option<Segment> {
+        self.segment.take()
     }
     fn sample(&mut self, _: &Sample<'_>) -> bool {
         true
@@ -222,16 +226,16 @@ impl Task for Dense<'_> {
             self.worst = self.worst.max((x[0] - (self.exact)(start + since)).abs());
         }
     }
-    fn end(&mut self, _: End) -> Option<Leg> {
+    fn end(&mut self, _: End) -> Option<Segment> {
         None
     }
 }
 
-fn dense_error(leg: &Leg, exact: &Orbit, options: &Options) -> f64 {
+fn dense_error(segment: &Segment, exact: &Orbit, options: &Options) -> f64 {
     let task = Dense {
-        leg: Some(leg.clone()),
+        segment: Some(segment.clone()),
         exact,
-        period: leg.system.period(),
+        period: segment.system.period(),
         worst: 0.0,
     };
     let mut worst = f64::NAN;
@@ -259,11 +263,11 @@ fn rk4_error_falls_sixteenfold_when_the_step_halves() {
 #[test]
 fn rk4_error_falls_sixteenfold_across_a_continuous_gate() {
     // F = max(0, .) as in the jumper's equations; against Taylor at the rounding of f64.
-    let leg = hop(hopper(0.1, 0.6, 1.1, false), 2.0, 5);
-    let exact = run(&leg, &taylor(1e-16, 24));
+    let segment = hop(hopper(0.1, 0.6, 1.1, false), 2.0, 5);
+    let exact = run(&segment, &taylor(1e-16, 24));
     assert_eq!(exact.end.switches, 5, "lands three times, leaves twice");
     let error = |steps| {
-        let end = run(&leg, &rk4(steps)).end;
+        let end = run(&segment, &rk4(steps)).end;
         assert_eq!(end.switches, exact.end.switches);
         let [z, v] = [0, 1].map(|i| end.point.x[i] - exact.end.point.x[i]);
         z.hypot(v)
@@ -322,9 +326,14 @@ fn the_default_order_does_what_its_tolerance_says() {
 
 #[test]
 fn dense_output_is_as_accurate_as_its_method() {
-    for Case { name, leg, exact } in cases() {
+    for Case {
+        name,
+        segment,
+        exact,
+    } in cases()
+    {
         for tolerance in [1e-6, 1e-9, 1e-12] {
-            let error = dense_error(&leg, &exact, &taylor(tolerance, 18));
+            let error = dense_error(&segment, &exact, &taylor(tolerance, 18));
             assert!(
                 error <= 10.0 * tolerance + 1e-13,
                 "{name} {tolerance:e} {error:e}"
@@ -332,7 +341,7 @@ fn dense_output_is_as_accurate_as_its_method() {
         }
         // Cubic Hermite: h^4/384 of the fourth derivative, of the order of the method.
         let steps = if name == "smooth" { 160 } else { 50 };
-        let errors = [1, 2, 4].map(|k| dense_error(&leg, &exact, &rk4(steps * k)));
+        let errors = [1, 2, 4].map(|k| dense_error(&segment, &exact, &rk4(steps * k)));
         for pair in errors.windows(2) {
             let ratio = pair[0] / pair[1];
             assert!((13.0..19.0).contains(&ratio), "{name} {errors:?}");
@@ -344,9 +353,9 @@ fn dense_output_is_as_accurate_as_its_method() {
 fn rk4_and_taylor_agree() {
     // Different in everything but the equations. RK4 at h = 0.0006: error 0.01 h^4, rounding 1e-13.
     for start in [0.5, 1.7, 2.6] {
-        let leg = hop(hopper(0.2, 0.6, 1.1, false), start, 5);
-        let one = run(&leg, &taylor(1e-14, 18));
-        let other = run(&leg, &rk4(10_000));
+        let segment = hop(hopper(0.2, 0.6, 1.1, false), start, 5);
+        let one = run(&segment, &taylor(1e-14, 18));
+        let other = run(&segment, &rk4(10_000));
         assert_eq!(one.switches.len(), other.switches.len());
         for (a, b) in one.switches.iter().zip(&other.switches) {
             assert!((a.time - b.time).abs() < 1e-10, "{a:?} {b:?}");
@@ -395,13 +404,13 @@ fn a_quadrature_is_an_integral() {
     b.unit(vec![vec![]]);
     let system = b.build(1.3).unwrap();
     let start = system.point(&[0], &[1.0, 0.0]);
-    let leg = Leg {
+    let segment = Segment {
         system,
         start,
         periods: 1,
     };
     let exact = 0.65 - 2.6_f64.sin() / 4.0;
-    let error = |options| (run(&leg, &options).end.point.x[index] - exact).abs();
+    let error = |options| (run(&segment, &options).end.point.x[index] - exact).abs();
     // x'^2 turns twice as fast as x and is no part of the error control: of a step of 1.3 its series
     // leaves (2 x 1.3)^25/25!/4 = 4e-16 at order 24, but 2e-10 at order 18.
     assert!(error(taylor(1e-13, 24)) < 1e-14);
@@ -413,25 +422,28 @@ fn a_quadrature_is_an_integral() {
 #[test]
 fn ten_periods_are_four_and_then_six() {
     for options in methods() {
-        for leg in [
+        for segment in [
             hop(hopper(0.1, 0.6, 1.1, true), 2.0, 10),
-            smooth().leg,
-            bilinear().leg,
+            smooth().segment,
+            bilinear().segment,
         ] {
-            let leg = Leg { periods: 10, ..leg };
-            let whole = run(&leg, &options);
+            let segment = Segment {
+                periods: 10,
+                ..segment
+            };
+            let whole = run(&segment, &options);
             let first = run(
-                &Leg {
+                &Segment {
                     periods: 4,
-                    ..leg.clone()
+                    ..segment.clone()
                 },
                 &options,
             );
             let second = run(
-                &Leg {
+                &Segment {
                     start: first.end.point.clone(),
                     periods: 6,
-                    ..leg
+                    ..segment
                 },
                 &options,
             );
@@ -447,15 +459,15 @@ fn ten_periods_are_four_and_then_six() {
 
 /// Sends its samples away and raises the flag at one of them.
 struct Interrupter<'a> {
-    leg: Option<Leg>,
+    segment: Option<Segment>,
     to: Sender<Point>,
     stop: &'a AtomicBool,
     at: u64,
 }
 
 impl Task for Interrupter<'_> {
-    fn begin(&mut self) -> Option<Leg> {
-        self.leg.take()
+    fn begin(&mut self) -> Option<Segment> {
+        self.segment.take()
     }
     fn sample(&mut self, sample: &Sample<'_>) -> bool {
         let point = Point {
@@ -466,7 +478,7 @@ impl Task for Interrupter<'_> {
         self.stop.store(sample.period == self.at, Ordering::Relaxed);
         true
     }
-    fn end(&mut self, _: End) -> Option<Leg> {
+    fn end(&mut self, _: End) -> Option<Segment> {
         None
     }
 }
@@ -474,12 +486,12 @@ impl Task for Interrupter<'_> {
 #[test]
 fn an_interrupted_run_resumes_from_its_last_sample() {
     for options in methods() {
-        let leg = hop(hopper(0.1, 0.6, 1.1, false), 2.0, 10);
-        let whole = run(&leg, &options).samples;
+        let segment = hop(hopper(0.1, 0.6, 1.1, false), 2.0, 10);
+        let whole = run(&segment, &options).samples;
         let (to, from) = channel();
         let stop = AtomicBool::new(false);
         let task = Interrupter {
-            leg: Some(leg.clone()),
+            segment: Some(segment.clone()),
             to,
             stop: &stop,
             at: 7,
@@ -488,10 +500,10 @@ fn an_interrupted_run_resumes_from_its_last_sample() {
         assert_eq!(ended, Err(IntegrateError::Interrupted));
         let kept: Vec<Point> = from.iter().collect();
         assert_eq!(kept.len(), 7);
-        let rest = Leg {
+        let rest = Segment {
             start: kept[6].clone(),
             periods: 3,
-            ..leg
+            ..segment
         };
         let rest = run(&rest, &options).samples;
         for (a, b) in whole.iter().zip(kept.iter().chain(&rest)) {
@@ -500,17 +512,17 @@ fn an_interrupted_run_resumes_from_its_last_sample() {
     }
 }
 
-/// Two legs, the second from the end of the first, as a sweep with carried state.
+/// Two segments, the second from the end of the first, as a sweep with carried state.
 #[derive(Clone)]
 struct Chain {
     id: usize,
-    legs: Vec<Leg>,
+    segments: Vec<Segment>,
     seen: Vec<u64>,
 }
 
 impl Task for Chain {
-    fn begin(&mut self) -> Option<Leg> {
-        self.legs.pop()
+    fn begin(&mut self) -> Option<Segment> {
+        self.segments.pop()
     }
     fn sample(&mut self, sample: &Sample<'_>) -> bool {
         self.seen.extend(bits(sample.x));
@@ -521,10 +533,10 @@ impl Task for Chain {
     fn switch(&mut self, switch: &saltus_hybrid::Switch<'_>) {
         self.seen.push(switch.time.to_bits());
     }
-    fn end(&mut self, end: End) -> Option<Leg> {
+    fn end(&mut self, end: End) -> Option<Segment> {
         self.seen.extend([end.steps, end.switches, end.periods]);
-        let next = self.legs.pop()?;
-        Some(Leg {
+        let next = self.segments.pop()?;
+        Some(Segment {
             start: end.point,
             ..next
         })
@@ -535,7 +547,7 @@ impl Task for Chain {
 fn any_number_of_threads_and_any_order_give_the_same_bits() {
     // 21 chains on 8 lanes, of unequal length, so that lanes are refilled at odd moments.
     let chain = |id: usize| {
-        let leg = |zeta: f64| {
+        let segment = |zeta: f64| {
             let periods = 2 + id as u64 % 5;
             hop(
                 hopper(zeta, 0.5, 0.9, false),
@@ -546,7 +558,7 @@ fn any_number_of_threads_and_any_order_give_the_same_bits() {
         let zeta = 0.05 + 0.02 * id as f64;
         Chain {
             id,
-            legs: vec![leg(zeta + 0.01), leg(zeta)],
+            segments: vec![segment(zeta + 0.01), segment(zeta)],
             seen: Vec::new(),
         }
     };
@@ -580,14 +592,14 @@ fn any_number_of_threads_and_any_order_give_the_same_bits() {
 
 /// Keeps the state at one instant of the first period.
 struct Half {
-    leg: Option<Leg>,
+    segment: Option<Segment>,
     at: f64,
     seen: Vec<f64>,
 }
 
 impl Task for Half {
-    fn begin(&mut self) -> Option<Leg> {
-        self.leg.take()
+    fn begin(&mut self) -> Option<Segment> {
+        self.segment.take()
     }
     fn sample(&mut self, _: &Sample<'_>) -> bool {
         true
@@ -602,7 +614,7 @@ impl Task for Half {
             step.state(since, &mut self.seen);
         }
     }
-    fn end(&mut self, _: End) -> Option<Leg> {
+    fn end(&mut self, _: End) -> Option<Segment> {
         None
     }
 }
@@ -614,12 +626,12 @@ fn a_drive_of_minus_a_is_a_shift_of_half_a_period() {
     let (zeta, a, omega) = (0.3, 0.4, 0.9);
     for options in [taylor(1e-14, 20), rk4(400)] {
         let late = |a: f64| {
-            let leg = hop(hopper(zeta, a, omega, false), 1.2, 200);
-            run(&leg, &options).end.point
+            let segment = hop(hopper(zeta, a, omega, false), 1.2, 200);
+            run(&segment, &options).end.point
         };
         let (plus, minus) = (late(a), late(-a));
         let half = Half {
-            leg: Some(Leg {
+            segment: Some(Segment {
                 system: hopper(zeta, a, omega, false),
                 start: plus,
                 periods: 1,

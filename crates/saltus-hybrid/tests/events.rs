@@ -6,8 +6,8 @@
 use std::sync::atomic::AtomicBool;
 
 use saltus_hybrid::{
-    End, Leg, Method, Options, Point, Recording, Sample, Status, SwitchKind, System, SystemBuilder,
-    Task, Transition, integrate, record, testing,
+    End, Method, Options, Point, Recording, Sample, Segment, Status, SwitchKind, System,
+    SystemBuilder, Task, Transition, integrate, record, testing,
 };
 
 const METHODS: [Method; 2] = [
@@ -30,7 +30,7 @@ fn options(method: Method) -> Options {
 fn run(system: &System, modes: &[usize], x: &[f64], periods: u64, method: Method) -> Recording {
     let start = system.point(modes, x);
     record(
-        &Leg {
+        &Segment {
             system: system.clone(),
             start,
             periods,
@@ -264,22 +264,22 @@ fn a_singularity_ends_the_run_with_a_status_and_the_last_good_state() {
 }
 
 struct Watcher {
-    leg: Option<Leg>,
+    segment: Option<Segment>,
     id: usize,
     samples: Vec<Vec<u64>>,
     status: Option<Status>,
 }
 
 impl Task for Watcher {
-    fn begin(&mut self) -> Option<Leg> {
-        self.leg.take()
+    fn begin(&mut self) -> Option<Segment> {
+        self.segment.take()
     }
     fn sample(&mut self, sample: &Sample<'_>) -> bool {
         self.samples
             .push(sample.x.iter().map(|v| v.to_bits()).collect());
         true
     }
-    fn end(&mut self, end: End) -> Option<Leg> {
+    fn end(&mut self, end: End) -> Option<Segment> {
         self.status = Some(end.status);
         None
     }
@@ -288,7 +288,7 @@ impl Task for Watcher {
 fn watch_all(starts: &[f64]) -> Vec<Watcher> {
     let system = testing::forced_oscillator(0.05, 1.0, 0.8, 1.0);
     let tasks = starts.iter().enumerate().map(|(id, &x)| Watcher {
-        leg: Some(Leg {
+        segment: Some(Segment {
             start: system.point(&[usize::from(x > 1.0)], &[x, 0.0]),
             system: system.clone(),
             periods: 5 + id as u64 % 3,
@@ -352,7 +352,7 @@ fn a_lane_that_chatters_or_never_lands_disturbs_nobody() {
             .into_iter()
             .enumerate()
             .map(|(id, (system, height))| Watcher {
-                leg: Some(Leg {
+                segment: Some(Segment {
                     start: system.point(&[0], &[height, 0.0]),
                     system,
                     periods: 3,
@@ -381,20 +381,20 @@ fn a_lane_that_chatters_or_never_lands_disturbs_nobody() {
 #[test]
 fn a_raised_flag_stops_the_run() {
     let system = testing::forced_oscillator(0.05, 1.0, 0.8, 1.0);
-    let leg = Leg {
+    let segment = Segment {
         start: system.point(&[0], &[0.0, 0.0]),
         system,
         periods: u64::MAX,
     };
     let task = Watcher {
-        leg: Some(leg),
+        segment: Some(segment),
         id: 0,
         samples: Vec::new(),
         status: None,
     };
     for method in METHODS {
         let task = Watcher {
-            leg: task.leg.clone(),
+            segment: task.segment.clone(),
             samples: Vec::new(),
             ..task
         };
@@ -503,7 +503,7 @@ fn switches_allowed_are_per_period() {
     let system = testing::bouncing_ball(1.0, 1.0, 2.0);
     for method in METHODS {
         let start = system.point(&[0], &[0.5, 0.0]);
-        let leg = Leg {
+        let segment = Segment {
             system: system.clone(),
             start,
             periods: 40,
@@ -512,7 +512,7 @@ fn switches_allowed_are_per_period() {
             max_switches: 1,
             ..options(method)
         };
-        let end = record(&leg, &options).unwrap().end;
+        let end = record(&segment, &options).unwrap().end;
         assert_eq!((end.status, end.switches), (Status::Completed, 40));
     }
 }

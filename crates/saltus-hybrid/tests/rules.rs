@@ -4,8 +4,8 @@
 #![allow(clippy::unwrap_used)]
 
 use saltus_hybrid::{
-    Leg, Method, Node, Options, Recording, Status, SwitchKind, System, SystemBuilder, Transition,
-    record,
+    Method, Node, Options, Recording, Segment, Status, SwitchKind, System, SystemBuilder,
+    Transition, record,
 };
 
 const METHODS: [Method; 2] = [
@@ -25,12 +25,12 @@ fn run_with(
     periods: u64,
     options: &Options,
 ) -> Recording {
-    let leg = Leg {
+    let segment = Segment {
         system: system.clone(),
         start: system.point(modes, x),
         periods,
     };
-    record(&leg, options).unwrap()
+    record(&segment, options).unwrap()
 }
 
 fn run(system: &System, modes: &[usize], x: &[f64], periods: u64, method: Method) -> Recording {

@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 use saltus_hybrid::{
-    Instructions, Leg, Method, Options, Status, System, SystemBuilder, Transition, record,
+    Instructions, Method, Options, Segment, Status, System, SystemBuilder, Transition, record,
 };
 
 /// Half of what the least of the usual threads have (1 MiB on Windows, 2 MiB in Rust).
@@ -62,7 +62,7 @@ fn swings(more: usize) -> System {
 fn runs_in_a_small_stack(system: System, periods: u64) {
     let mut start = system.point(&[0], &[0.3]);
     system.columns_mut(&mut start.x).fill(0.1);
-    let leg = Leg {
+    let segment = Segment {
         system,
         start,
         periods,
@@ -83,7 +83,7 @@ fn runs_in_a_small_stack(system: System, periods: u64) {
                 instructions,
                 ..Options::default()
             };
-            let end = record(&leg, &options).unwrap().end;
+            let end = record(&segment, &options).unwrap().end;
             assert_eq!(end.status, Status::Completed);
             assert!(end.switches > 0, "no switch was met");
         }

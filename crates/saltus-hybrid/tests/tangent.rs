@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use saltus_hybrid::{
-    Leg, Method, Options, Point, Status, System, SystemBuilder, Transition, record, testing,
+    Method, Options, Point, Segment, Status, System, SystemBuilder, Transition, record, testing,
 };
 
 fn options(method: Method) -> Options {
@@ -19,12 +19,12 @@ const TAYLOR: Method = Method::Taylor {
 };
 
 fn run(system: &System, start: Point, periods: u64, method: Method) -> Point {
-    let leg = Leg {
+    let segment = Segment {
         system: system.clone(),
         start,
         periods,
     };
-    let run = record(&leg, &options(method)).unwrap();
+    let run = record(&segment, &options(method)).unwrap();
     assert_eq!(run.end.status, Status::Completed);
     run.end.point
 }

@@ -8,7 +8,8 @@ use std::sync::atomic::AtomicBool;
 
 use saltus_hybrid::{Options, System, SystemBuilder};
 use saltus_orbits::{
-    Along, ContinuationOptions, NewtonOptions, Place, Stroboscopic, find_orbit, follow_both,
+    ContinuationOptions, MapPoint, NewtonOptions, ParameterRange, Stroboscopic, find_orbit,
+    follow_both,
 };
 
 const DAMPING: f64 = 0.1;
@@ -30,12 +31,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let stop = AtomicBool::new(false);
     let map = Stroboscopic::new(|p: &[f64]| duffing(p[0]), 2, Options::default(), 0, &stop);
     // Far below resonance the motion follows the force.
-    let guess = Place {
+    let guess = MapPoint {
         modes: Vec::new(),
         x: vec![FORCE, 0.0],
     };
     let start = find_orbit(&map, &[0.3], &[guess], &NewtonOptions::default())?;
-    let along = Along {
+    let along = ParameterRange {
         parameter: 0,
         from: 0.2,
         to: 3.0,

@@ -1,10 +1,12 @@
 //! A branch with those that grow from it: period-doubling cascades and crossing branches.
 
-use crate::continuation::{Along, Branch, ContinuationError, ContinuationOptions, End, Point};
+use crate::continuation::{
+    Branch, ContinuationError, ContinuationOptions, End, ParameterRange, Point,
+};
 use crate::follow::Labels;
 use crate::linear::{dot, minus, size};
 use crate::path::Path;
-use crate::{Family, Orbit, Special, SpecialKind};
+use crate::{Orbit, ParametricMap, Special, SpecialKind};
 
 /// Distances of special points at the same place, as parts of the range and of the state: several times the accuracy
 /// of their location, and far below the distance of different ones.
@@ -53,7 +55,7 @@ impl Default for BranchesOptions {
 
 /// One of several branches that grow from each other.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Limb {
+pub struct BranchWithOrigin {
     /// Label of the special point where it begins; `None` for the first branch.
     pub origin: Option<String>,
     /// Doublings of the period since the first branch, or since that of half its period.
@@ -71,13 +73,13 @@ pub struct Limb {
 ///
 /// # Errors
 /// As [`crate::follow`].
-pub fn branches<F: Family + ?Sized>(
+pub fn branches<F: ParametricMap + ?Sized>(
     family: &F,
     start: &Orbit,
-    along: &Along,
+    along: &ParameterRange,
     options: &BranchesOptions,
     keep_going: &mut dyn FnMut(&Point) -> bool,
-) -> Result<Vec<Limb>, ContinuationError> {
+) -> Result<Vec<BranchWithOrigin>, ContinuationError> {
     let brief = ContinuationOptions {
         unstable: options.continuation.unstable.min(BEYOND),
         ..options.continuation.clone()
@@ -117,15 +119,15 @@ struct Tree<'a, F: ?Sized> {
     brief: Path<'a, F>,
     options: &'a BranchesOptions,
     labels: Labels,
-    limbs: Vec<Limb>,
+    limbs: Vec<BranchWithOrigin>,
     /// Special points from which a branch was begun, or could not be.
     visited: Vec<Special>,
 }
 
-impl<F: Family + ?Sized> Tree<'_, F> {
+impl<F: ParametricMap + ?Sized> Tree<'_, F> {
     fn add(&mut self, origin: Option<String>, doublings: usize, mut branch: Branch) {
         self.labels.name(&mut branch);
-        self.limbs.push(Limb {
+        self.limbs.push(BranchWithOrigin {
             origin,
             doublings,
             branch,
@@ -155,7 +157,7 @@ impl<F: Family + ?Sized> Tree<'_, F> {
     }
 
     /// Whether a doubling of limb `mother` is to be followed.
-    fn doubles(&self, mother: &Limb, special: &Special) -> bool {
+    fn doubles(&self, mother: &BranchWithOrigin, special: &Special) -> bool {
         let before = mother.origin.as_ref();
         let before = before.and_then(|label| self.specials().find(|s| s.label == *label));
         let far = |s: &Special| (s.parameter - special.parameter).abs() >= self.options.closest;
@@ -206,7 +208,7 @@ impl<F: Family + ?Sized> Tree<'_, F> {
     }
 }
 
-impl<F: Family + ?Sized> Path<'_, F> {
+impl<F: ParametricMap + ?Sized> Path<'_, F> {
     /// Whether two special points are one, seen from two branches or at two phases of the orbit.
     pub(crate) fn same(&self, a: &Special, b: &Special) -> bool {
         let range = self.range[1] - self.range[0];

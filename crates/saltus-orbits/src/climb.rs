@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use saltus_hybrid::{
-    BuildError, End, IntegrateError, Leg, Method, Options, Point, Sample, Status, Switch,
+    BuildError, End, IntegrateError, Method, Options, Point, Sample, Segment, Status, Switch,
     SwitchKind, System, Task, integrate_groups,
 };
 
@@ -178,7 +178,7 @@ impl<W: FnMut(&Sample<'_>) + Send> Climb<W> {
 }
 
 impl<W: FnMut(&Sample<'_>) + Send> Task for Climb<W> {
-    fn begin(&mut self) -> Option<Leg> {
+    fn begin(&mut self) -> Option<Segment> {
         let states = self.system.declared_len();
         let mut start = self
             .system
@@ -186,7 +186,7 @@ impl<W: FnMut(&Sample<'_>) + Send> Task for Climb<W> {
         let columns = self.spectrum.start_columns();
         let to = self.system.columns_mut(&mut start.x);
         to.copy_from_slice(&columns);
-        Some(Leg {
+        Some(Segment {
             system: self.system.clone(),
             start,
             periods: self.how.transient + self.how.periods,
@@ -215,7 +215,7 @@ impl<W: FnMut(&Sample<'_>) + Send> Task for Climb<W> {
         self.switched |= matches!(switch.kind, SwitchKind::Mode { .. });
     }
 
-    fn end(&mut self, end: End) -> Option<Leg> {
+    fn end(&mut self, end: End) -> Option<Segment> {
         self.end = Some(end);
         None
     }

@@ -6,11 +6,11 @@
 
 use crate::linear::scaled;
 use crate::shooting::Change;
-use crate::{Lost, NewtonOptions, NotFound, Orbit, Special};
+use crate::{NewtonOptions, NoImage, NotFound, Orbit, Special};
 
 /// The parameter that changes, and how far.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Along {
+pub struct ParameterRange {
     /// Index of the parameter.
     pub parameter: usize,
     /// One end of its range.
@@ -117,7 +117,7 @@ pub enum End {
     /// A switch at the sampling instant, which makes the sampled state jump, with no orbit found beyond.
     SamplingInstant,
     /// The end of the map.
-    NoMap(Lost),
+    NoMap(NoImage),
     /// The corrector failed for the smallest step too.
     Failed(NotFound),
     /// The branch bends too much for the smallest step.
@@ -155,12 +155,12 @@ impl std::fmt::Display for End {
 impl From<NotFound> for End {
     fn from(reason: NotFound) -> Self {
         match reason {
-            NotFound::Lost {
-                reason: Lost::Interrupted,
+            NotFound::NoImage {
+                reason: NoImage::Interrupted,
                 ..
             } => Self::Interrupted,
-            NotFound::Lost {
-                reason: reason @ Lost::NoMap(_),
+            NotFound::NoImage {
+                reason: reason @ NoImage::NoMap(_),
                 ..
             } => Self::NoMap(reason),
             reason => Self::Failed(reason),

@@ -4,14 +4,14 @@ use crate::continuation::Point;
 use crate::locate::ROUNDS;
 use crate::path::Path;
 use crate::shooting::Guess;
-use crate::{Family, Orbit, Special, SpecialKind, linear};
+use crate::{Orbit, ParametricMap, Special, SpecialKind, linear};
 
 /// A branch point is interpolated from points at this distance and twice that on both sides, relative to the
 /// largest coordinate or 1. Nearer to it orbits cannot be trusted: a residual of 1e-11 is the product of the
 /// distances to both branches. Farther, interpolation by cubics is off by more than 1e-10.
 const ASIDE: f64 = 1e-3;
 
-impl<F: Family + ?Sized> Path<'_, F> {
+impl<F: ParametricMap + ?Sized> Path<'_, F> {
     /// The branch point between two points: where the cubic through four determinants is zero, on the cubics
     /// through the four orbits. None if the two are too far from each other for that.
     pub(crate) fn crossing(&self, a: &Point, b: &Point, near: usize) -> Option<Special> {

@@ -6,13 +6,13 @@
 //! direction d of the curve and the normal n; the next point is h d + b n, with b found by the secant
 //! method, lifted to the surface by the corrector.
 
-use crate::continuation::{Along, ContinuationError, ContinuationOptions, End};
+use crate::continuation::{ContinuationError, ContinuationOptions, End, ParameterRange};
 use crate::detect::critical_pair;
 use crate::differences::Free;
 use crate::linear::{dot, minus, norm, unit};
 use crate::path::Path;
 use crate::surface::{Spot, Station, Surface};
-use crate::{Family, Multiplier, NotFound, Orbit, Special, SpecialKind};
+use crate::{Multiplier, NotFound, Orbit, ParametricMap, Special, SpecialKind};
 
 /// psi, or the last change of b, at which a point lies on the curve.
 const ZERO: f64 = 1e-11;
@@ -55,10 +55,10 @@ pub struct Curve {
 /// # Errors
 /// If the question makes no sense, or the special point is of a kind that has no such curve. How the curve ends
 /// is an answer.
-pub fn follow_curve<F: Family + ?Sized>(
+pub fn follow_curve<F: ParametricMap + ?Sized>(
     family: &F,
     start: &Special,
-    over: [&Along; 2],
+    over: [&ParameterRange; 2],
     options: &ContinuationOptions,
     keep_going: &mut dyn FnMut(&CurvePoint) -> bool,
 ) -> Result<Curve, ContinuationError> {
@@ -81,7 +81,7 @@ pub fn follow_curve<F: Family + ?Sized>(
         return Err(ContinuationError::NoCurve { short });
     }
     let pass = surface.shooting().pass(&start.orbit.guess());
-    let pass = pass.map_err(|reason| NotFound::Lost {
+    let pass = pass.map_err(|reason| NotFound::NoImage {
         reason,
         residual: f64::INFINITY,
         places: start.orbit.places.clone(),
@@ -107,7 +107,7 @@ pub fn follow_curve<F: Family + ?Sized>(
     })
 }
 
-impl<F: Family + ?Sized> Surface<'_, F> {
+impl<F: ParametricMap + ?Sized> Surface<'_, F> {
     /// The point of the curve `step` ahead, and the Newton steps it took.
     fn next(&self, from: &Station, step: f64) -> Result<(Spot, usize), End> {
         let mut known: Option<(f64, f64)> = None;

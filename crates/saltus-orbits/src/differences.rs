@@ -6,7 +6,7 @@
 
 use crate::events::switches;
 use crate::linear::{minus, norm, plus, scaled, size};
-use crate::map::{Family, Image, Lost, Shot};
+use crate::map::{Image, MapRequest, NoImage, ParametricMap};
 
 /// Differences over this part of a parameter's unit: the cube root of rounding, where the error of central
 /// differences is smallest.
@@ -38,13 +38,13 @@ pub(crate) fn moved(parameters: &[f64], free: &Free, part: f64) -> Vec<f64> {
 }
 
 /// dP per unit of a parameter, from the image of a shot and those of the shots below and above.
-pub(crate) fn slope<F: Family + ?Sized>(
+pub(crate) fn slope<F: ParametricMap + ?Sized>(
     family: &F,
-    shot: &Shot<'_>,
+    shot: &MapRequest<'_>,
     image: &Image,
     free: &Free,
-    both: &[Result<Image, Lost>; 2],
-) -> Result<Vec<f64>, Lost> {
+    both: &[Result<Image, NoImage>; 2],
+) -> Result<Vec<f64>, NoImage> {
     let plain = difference(image, both)?;
     let sides = both.each_ref().map(|side| side.as_ref().ok());
     let corner = match sides {
@@ -61,9 +61,9 @@ pub(crate) fn slope<F: Family + ?Sized>(
 }
 
 /// The slope on the piece of the map that an image lies on, if differences show it.
-fn beside_corner<F: Family + ?Sized>(
+fn beside_corner<F: ParametricMap + ?Sized>(
     family: &F,
-    shot: &Shot<'_>,
+    shot: &MapRequest<'_>,
     image: &Image,
     free: &Free,
 ) -> Option<Vec<f64>> {
@@ -73,14 +73,14 @@ fn beside_corner<F: Family + ?Sized>(
         .map(|part| moved(shot.parameters, free, part))
         .collect();
     // Only shots with a derivative tell their switches.
-    let shots = beside.iter().map(|parameters| Shot {
+    let shots = beside.iter().map(|parameters| MapRequest {
         parameters,
         derivative: true,
         ..*shot
     });
     let images = family.images(&shots.collect::<Vec<_>>());
     let here = switches(&image.crossings);
-    let slope = |(side, parameters): (&Result<Image, Lost>, &Vec<f64>)| {
+    let slope = |(side, parameters): (&Result<Image, NoImage>, &Vec<f64>)| {
         let side = side.as_ref().ok()?;
         // The rest of a small part after rounding.
         let part = (parameters[free.index] - shot.parameters[free.index]) / free.unit;
@@ -109,9 +109,11 @@ fn agree(a: &[f64], b: &[f64]) -> bool {
 }
 
 /// Central, or to one side where the map ends.
-fn difference(image: &Image, both: &[Result<Image, Lost>; 2]) -> Result<Vec<f64>, Lost> {
+fn difference(image: &Image, both: &[Result<Image, NoImage>; 2]) -> Result<Vec<f64>, NoImage> {
     let (below, above, width) = match both {
-        [Err(Lost::Interrupted), _] | [_, Err(Lost::Interrupted)] => return Err(Lost::Interrupted),
+        [Err(NoImage::Interrupted), _] | [_, Err(NoImage::Interrupted)] => {
+            return Err(NoImage::Interrupted);
+        }
         [Ok(below), Ok(above)] => (below, above, 2.0),
         [Ok(below), Err(_)] => (below, image, 1.0),
         [Err(_), Ok(above)] => (image, above, 1.0),
@@ -119,7 +121,7 @@ fn difference(image: &Image, both: &[Result<Image, Lost>; 2]) -> Result<Vec<f64>
     };
     let change = minus(&above.place.x, &below.place.x);
     if !norm(&change).is_finite() {
-        return Err(Lost::Ended("the image is not finite".into()));
+        return Err(NoImage::Ended("the image is not finite".into()));
     }
     Ok(scaled(&change, 1.0 / (width * DIFFERENCE)))
 }

@@ -15,7 +15,7 @@ pub use batches::Exponent;
 pub use birkhoff::Weighted;
 pub use spectrum::{Dimension, Running, Spectrum};
 
-use crate::Lost;
+use crate::NoImage;
 
 /// Reason why exponents cannot be measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -60,11 +60,11 @@ pub enum ExponentError {
     },
     /// The trajectory ended.
     #[error("no image at iterate {iterate}")]
-    Lost {
+    NoImage {
         /// Iterates made before, transient included.
         iterate: usize,
         /// The reason.
         #[source]
-        lost: Lost,
+        lost: NoImage,
     },
 }

@@ -5,11 +5,11 @@
 use std::sync::atomic::AtomicBool;
 
 use saltus_hybrid::{
-    End, IntegrateError, Leg, Minimum, Options, Sample, Status, Step, Switch, SwitchKind, System,
-    Task, integrate_all,
+    End, IntegrateError, Minimum, Options, Sample, Segment, Status, Step, Switch, SwitchKind,
+    System, Task, integrate_all,
 };
 
-use crate::map::{Crossing, Family, Image, Lost, Place, Shot, Touch};
+use crate::map::{Crossing, Image, MapPoint, MapRequest, NoImage, ParametricMap, Touch};
 use crate::matrix::Matrix;
 
 /// Trajectories that a thread runs at the cost of one.
@@ -32,7 +32,7 @@ where
     F: Fn(&[f64]) -> Result<System, String> + Sync,
 {
     /// The maps of the systems that `system_at` makes of parameter values, with `dimension` declared states each.
-    /// `threads` 0 is as many as the machine has; raise `stop` to end a call with [`Lost::Interrupted`].
+    /// `threads` 0 is as many as the machine has; raise `stop` to end a call with [`NoImage::Interrupted`].
     pub fn new(
         system_at: F,
         dimension: usize,
@@ -52,14 +52,14 @@ where
     }
 
     /// The different systems of the shots, and which of them each shot is of.
-    fn systems(&self, shots: &[Shot<'_>]) -> (Vec<Made>, Vec<usize>) {
+    fn systems(&self, shots: &[MapRequest<'_>]) -> (Vec<Made>, Vec<usize>) {
         let mut systems: Vec<Made> = Vec::new();
         let mut first: Vec<usize> = Vec::new();
         let mut of = Vec::with_capacity(shots.len());
         for (i, shot) in shots.iter().enumerate() {
             let same = |&earlier: &usize| shots[earlier].parameters == shot.parameters;
             of.push(first.iter().position(same).unwrap_or_else(|| {
-                let system = (self.system_at)(shot.parameters).map_err(Lost::NoMap);
+                let system = (self.system_at)(shot.parameters).map_err(NoImage::NoMap);
                 systems.push(system.map(|system| sharing(system, &systems)));
                 first.push(i);
                 systems.len() - 1
@@ -79,7 +79,7 @@ where
     }
 }
 
-impl<F> Family for Stroboscopic<'_, F>
+impl<F> ParametricMap for Stroboscopic<'_, F>
 where
     F: Fn(&[f64]) -> Result<System, String> + Sync,
 {
@@ -87,9 +87,9 @@ where
         self.dimension
     }
 
-    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
+    fn images(&self, shots: &[MapRequest<'_>]) -> Vec<Result<Image, NoImage>> {
         let (systems, of) = self.systems(shots);
-        let mut out = vec![Err(Lost::Interrupted); shots.len()];
+        let mut out = vec![Err(NoImage::Interrupted); shots.len()];
         // Systems with and without tangents have different programs and cannot share a run.
         for derivative in [false, true] {
             let asked = || (0..shots.len()).filter(|&i| shots[i].derivative == derivative);
@@ -109,7 +109,7 @@ where
             match integrate_all(&self.options, flights, self.threads, self.stop) {
                 Ok(ended) => ended.into_iter().for_each(|flight| flight.land(&mut out)),
                 Err(IntegrateError::Interrupted) => {}
-                Err(error) => return vec![Err(Lost::NoMap(error.to_string())); shots.len()],
+                Err(error) => return vec![Err(NoImage::NoMap(error.to_string())); shots.len()],
             }
         }
         out
@@ -121,19 +121,19 @@ impl<F> Stroboscopic<'_, F> {
     fn flights(
         &self,
         index: usize,
-        shot: &Shot<'_>,
+        shot: &MapRequest<'_>,
         system: &Made,
         width: usize,
-    ) -> Result<Vec<Flight>, Lost> {
+    ) -> Result<Vec<Flight>, NoImage> {
         let n = self.dimension;
-        let system = system.as_ref().map_err(Lost::clone)?;
+        let system = system.as_ref().map_err(NoImage::clone)?;
         let (states, units) = (shot.start.x.len(), shot.start.modes.len());
         if states != n || units != system.unit_count() {
             let what = format!(
                 "a place has {states} states and {units} modes, the map {n} and {}",
                 system.unit_count()
             );
-            return Err(Lost::NoMap(what));
+            return Err(NoImage::NoMap(what));
         }
         let firsts = (0..n).step_by(width.max(1));
         let flight = |first: usize| {
@@ -145,7 +145,7 @@ impl<F> Stroboscopic<'_, F> {
                 first,
                 dimension: n,
                 period: system.period(),
-                leg: Some(Leg {
+                segment: Some(Segment {
                     system: system.clone(),
                     start,
                     periods: 1,
@@ -153,7 +153,7 @@ impl<F> Stroboscopic<'_, F> {
                 columns: Vec::new(),
                 crossings: Vec::new(),
                 touches: Vec::new(),
-                landed: Err(Lost::Interrupted),
+                landed: Err(NoImage::Interrupted),
             }
         };
         let count = if width > 0 { n.div_ceil(width) } else { 1 };
@@ -162,7 +162,7 @@ impl<F> Stroboscopic<'_, F> {
 }
 
 /// A system, or the reason why there is none.
-type Made = Result<System, Lost>;
+type Made = Result<System, NoImage>;
 
 /// The system with the program of the first one that is there: comparing is cheap then.
 fn sharing(system: System, others: &[Made]) -> System {
@@ -179,9 +179,9 @@ fn widened(systems: &[Made], width: usize) -> Vec<Made> {
     }
     let mut wide: Vec<Made> = Vec::with_capacity(systems.len());
     for system in systems {
-        let made = system.as_ref().map_err(Lost::clone).and_then(|system| {
+        let made = system.as_ref().map_err(NoImage::clone).and_then(|system| {
             let tangents = system.with_tangents(width);
-            tangents.map_err(|error| Lost::NoMap(error.to_string()))
+            tangents.map_err(|error| NoImage::NoMap(error.to_string()))
         });
         wide.push(made.map(|system| sharing(system, &wide)));
     }
@@ -195,16 +195,16 @@ struct Flight {
     first: usize,
     dimension: usize,
     period: f64,
-    leg: Option<Leg>,
+    segment: Option<Segment>,
     columns: Vec<f64>,
     crossings: Vec<Crossing>,
     touches: Vec<Touch>,
-    landed: Result<Place, Lost>,
+    landed: Result<MapPoint, NoImage>,
 }
 
 impl Flight {
     /// Hands its part of the image over.
-    fn land(self, out: &mut [Result<Image, Lost>]) {
+    fn land(self, out: &mut [Result<Image, NoImage>]) {
         let (n, out) = (self.dimension, &mut out[self.shot]);
         if self.first == 0 {
             let tangents = !self.columns.is_empty();
@@ -235,14 +235,14 @@ impl Flight {
 }
 
 impl Task for Flight {
-    fn begin(&mut self) -> Option<Leg> {
-        let leg = self.leg.take()?;
-        self.columns = leg.system.columns(&leg.start.x).to_vec();
-        Some(leg)
+    fn begin(&mut self) -> Option<Segment> {
+        let segment = self.segment.take()?;
+        self.columns = segment.system.columns(&segment.start.x).to_vec();
+        Some(segment)
     }
 
     fn sample(&mut self, sample: &Sample<'_>) -> bool {
-        self.landed = Ok(Place {
+        self.landed = Ok(MapPoint {
             modes: sample.modes.to_vec(),
             x: sample.x[..self.dimension].to_vec(),
         });
@@ -281,9 +281,9 @@ impl Task for Flight {
         self.touches.extend(step.minima().into_iter().map(touch));
     }
 
-    fn end(&mut self, end: End) -> Option<Leg> {
+    fn end(&mut self, end: End) -> Option<Segment> {
         if end.status != Status::Completed {
-            self.landed = Err(Lost::Ended(end.status.to_string()));
+            self.landed = Err(NoImage::Ended(end.status.to_string()));
         }
         None
     }

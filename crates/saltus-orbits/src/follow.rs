@@ -1,8 +1,10 @@
 //! Branches from an orbit, one way or both.
 
-use crate::continuation::{Along, Branch, ContinuationError, ContinuationOptions, End, Point};
+use crate::continuation::{
+    Branch, ContinuationError, ContinuationOptions, End, ParameterRange, Point,
+};
 use crate::path::Path;
-use crate::{Family, Orbit, Special};
+use crate::{Orbit, ParametricMap, Special};
 
 /// Follows a branch from `start`, at first towards growing parameter or falling.
 ///
@@ -11,10 +13,10 @@ use crate::{Family, Orbit, Special};
 ///
 /// # Errors
 /// If the question makes no sense or `start` is no orbit. An end of the branch is an answer.
-pub fn follow<F: Family + ?Sized>(
+pub fn follow<F: ParametricMap + ?Sized>(
     family: &F,
     start: &Orbit,
-    along: &Along,
+    along: &ParameterRange,
     growing: bool,
     options: &ContinuationOptions,
     keep_going: &mut dyn FnMut(&Point) -> bool,
@@ -30,10 +32,10 @@ pub fn follow<F: Family + ?Sized>(
 ///
 /// # Errors
 /// As [`follow`].
-pub fn follow_both<F: Family + ?Sized>(
+pub fn follow_both<F: ParametricMap + ?Sized>(
     family: &F,
     start: &Orbit,
-    along: &Along,
+    along: &ParameterRange,
     options: &ContinuationOptions,
     keep_going: &mut dyn FnMut(&Point) -> bool,
 ) -> Result<Branch, ContinuationError> {
@@ -89,20 +91,20 @@ impl Branch {
     }
 }
 
-impl<F: Family + ?Sized> Path<'_, F> {
-    /// Walks both ways from a point, unless the first way closes or is stopped. `born` as in [`Self::walk`].
+impl<F: ParametricMap + ?Sized> Path<'_, F> {
+    /// Walks both ways from a point, unless the first way closes or is stopped. `origin` as in [`Self::walk`].
     pub(crate) fn walk_both(
         &self,
         seed: Point,
-        born: Option<&Special>,
+        origin: Option<&Special>,
         keep_going: &mut dyn FnMut(&Point) -> bool,
     ) -> Branch {
-        let forth = self.walk(seed.clone(), born, keep_going);
+        let forth = self.walk(seed.clone(), origin, keep_going);
         if matches!(forth.ends[1], End::Closed | End::Interrupted) {
             return forth;
         }
         let mut first = true;
-        let back = self.walk(seed.reversed(), born, &mut |point| {
+        let back = self.walk(seed.reversed(), origin, &mut |point| {
             std::mem::take(&mut first) || keep_going(point)
         });
         forth.after(back)

@@ -1,15 +1,15 @@
 //! Exponents of any family that gives its derivative, one iterate after another.
 
-use crate::{ExponentError, Family, Image, Place, Shot, Spectrum};
+use crate::{ExponentError, Image, MapPoint, MapRequest, ParametricMap, Spectrum};
 
 /// A trajectory with its tangent columns and their record.
 ///
 /// One image is asked for at a time. An integrator of a flow may move the columns along instead of asking
 /// for the whole derivative, and feed a [`Spectrum`] itself.
 pub struct Follower<'a> {
-    family: &'a dyn Family,
+    family: &'a dyn ParametricMap,
     parameters: &'a [f64],
-    place: Place,
+    place: MapPoint,
     columns: Vec<f64>,
     /// Iterates made, transient included.
     made: usize,
@@ -23,9 +23,9 @@ impl<'a> Follower<'a> {
     /// [`ExponentError::Columns`] unless there are 1 to n columns, [`ExponentError::Length`] if the state is not
     /// of length n.
     pub fn new(
-        family: &'a dyn Family,
+        family: &'a dyn ParametricMap,
         parameters: &'a [f64],
-        start: Place,
+        start: MapPoint,
         columns: usize,
     ) -> Result<Self, ExponentError> {
         let spectrum = Spectrum::new(family.dimension(), columns)?;
@@ -46,7 +46,7 @@ impl<'a> Follower<'a> {
     /// Makes `iterates` more iterates, and records them.
     ///
     /// # Errors
-    /// [`ExponentError::Lost`] where the trajectory ends, [`ExponentError::NoDerivative`] if the family gives none,
+    /// [`ExponentError::NoImage`] where the trajectory ends, [`ExponentError::NoDerivative`] if the family gives none,
     /// [`ExponentError::NotFinite`]. The record until then stays.
     pub fn advance(&mut self, iterates: usize) -> Result<(), ExponentError> {
         for _ in 0..iterates {
@@ -65,7 +65,7 @@ impl<'a> Follower<'a> {
     }
 
     /// The last place of the trajectory.
-    pub fn place(&self) -> &Place {
+    pub fn place(&self) -> &MapPoint {
         &self.place
     }
 
@@ -75,7 +75,7 @@ impl<'a> Follower<'a> {
     }
 
     fn image(&self) -> Result<Image, ExponentError> {
-        let shot = Shot {
+        let shot = MapRequest {
             parameters: self.parameters,
             start: &self.place,
             derivative: true,
@@ -83,7 +83,7 @@ impl<'a> Follower<'a> {
         let iterate = self.made;
         let answer = self.family.images(&[shot]).pop();
         let answer = answer.ok_or(self.no_derivative())?;
-        answer.map_err(|lost| ExponentError::Lost { iterate, lost })
+        answer.map_err(|lost| ExponentError::NoImage { iterate, lost })
     }
 
     /// Every column times the derivative.
@@ -111,9 +111,9 @@ impl<'a> Follower<'a> {
 /// # Errors
 /// Those of [`Follower::new`] and [`Follower::advance`].
 pub fn spectrum_of(
-    family: &dyn Family,
+    family: &dyn ParametricMap,
     parameters: &[f64],
-    start: Place,
+    start: MapPoint,
     transient: usize,
     iterates: usize,
     columns: usize,

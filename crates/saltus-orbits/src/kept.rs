@@ -4,7 +4,7 @@
 //! length, g = a + B x, and these equations along some iterates of the start are linear in a and B.
 
 use crate::linear::{self, dot, minus, norm, plus, scaled, size, times, whole_norm};
-use crate::{Family, Matrix, Place, Shot};
+use crate::{MapPoint, MapRequest, Matrix, ParametricMap};
 
 /// A vector solves the equations if no more than this part of them is left: derivatives have errors of some 1e-12.
 const SOLVED: f64 = 1e-9;
@@ -57,10 +57,10 @@ impl Kept {
 }
 
 /// The quadratic quantities that a map keeps along the way from `start`, with their values there.
-pub(crate) fn kept<F: Family + ?Sized>(
+pub(crate) fn kept<F: ParametricMap + ?Sized>(
     family: &F,
     parameters: &[f64],
-    start: &Place,
+    start: &MapPoint,
 ) -> Option<Vec<Kept>> {
     let n = start.x.len();
     if n > STATES {
@@ -70,7 +70,7 @@ pub(crate) fn kept<F: Family + ?Sized>(
     let unknown = n + pairs.len();
     let (mut rows, mut place, mut unit) = (Vec::new(), start.clone(), 0.0);
     while rows.len() < unknown + 2 * n {
-        let shot = Shot {
+        let shot = MapRequest {
             parameters,
             start: &place,
             derivative: true,

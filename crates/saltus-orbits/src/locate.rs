@@ -4,7 +4,7 @@ use crate::continuation::Point;
 use crate::detect::{Test, changes, pair_passes};
 use crate::path::Path;
 use crate::special::{JUMP, Special};
-use crate::{Family, NotFound, linear};
+use crate::{NotFound, ParametricMap, linear};
 
 /// Brackets are narrowed to this length, relative to the largest coordinate or 1: what rounding allows.
 pub(crate) const NARROW: f64 = 1e-10;
@@ -18,7 +18,7 @@ const MOST: usize = 16;
 /// Rounds of a search at most; bisection of a step of 1 needs 34.
 pub(crate) const ROUNDS: usize = 60;
 
-impl<F: Family + ?Sized> Path<'_, F> {
+impl<F: ParametricMap + ?Sized> Path<'_, F> {
     /// All special points between two points of a branch, in their order.
     pub(crate) fn specials(
         &self,

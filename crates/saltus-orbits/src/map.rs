@@ -4,20 +4,20 @@ use crate::matrix::Matrix;
 
 /// A point of a trajectory at the section: modes and state together; neither means anything alone.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Place {
+pub struct MapPoint {
     /// Mode of each unit that switches; empty for a map without any.
     pub modes: Vec<usize>,
-    /// State, of length [`Family::dimension`].
+    /// State, of length [`ParametricMap::dimension`].
     pub x: Vec<f64>,
 }
 
 /// One application of the map that is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shot<'a> {
+pub struct MapRequest<'a> {
     /// Value of each parameter.
     pub parameters: &'a [f64],
     /// First state.
-    pub start: &'a Place,
+    pub start: &'a MapPoint,
     /// Whether the derivative and what happens on the way are wanted too.
     pub derivative: bool,
 }
@@ -26,7 +26,7 @@ pub struct Shot<'a> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
     /// The place it leads to.
-    pub place: Place,
+    pub place: MapPoint,
     /// d(image)/d(start), n x n, if it was asked for.
     pub derivative: Option<Matrix>,
     /// Switches on the way, in time order, if the derivative was asked for.
@@ -66,7 +66,7 @@ pub struct Touch {
 /// Reason why there is no image.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum Lost {
+pub enum NoImage {
     /// No map at these parameters, with the reason.
     #[error("{0}")]
     NoMap(String),
@@ -79,10 +79,10 @@ pub enum Lost {
 }
 
 /// A map R^n -> R^n that depends on parameters, such as a forced flow over one period.
-pub trait Family: Sync {
+pub trait ParametricMap: Sync {
     /// n.
     fn dimension(&self) -> usize;
 
     /// The image of each shot, in their order. Many at once cost less than one by one.
-    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>>;
+    fn images(&self, shots: &[MapRequest<'_>]) -> Vec<Result<Image, NoImage>>;
 }

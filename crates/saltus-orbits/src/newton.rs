@@ -1,6 +1,6 @@
 //! Settings of Newton's method, and the reasons why it may find no orbit.
 
-use crate::map::{Lost, Place};
+use crate::map::{MapPoint, NoImage};
 
 /// Settings of Newton's method for orbits.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +51,7 @@ pub enum NotFound {
         /// Largest component of P(x_i) - x_(i+1).
         residual: f64,
         /// The last guess.
-        places: Vec<Place>,
+        places: Vec<MapPoint>,
     },
     /// The equations for a step have no unique solution.
     #[error(
@@ -62,7 +62,7 @@ pub enum NotFound {
         /// Largest component of P(x_i) - x_(i+1).
         residual: f64,
         /// The last guess.
-        places: Vec<Place>,
+        places: Vec<MapPoint>,
     },
     /// The map keeps a quantity, and an orbit with the value of the start was not found.
     #[error(
@@ -71,26 +71,26 @@ pub enum NotFound {
     )]
     OtherMember {
         /// An orbit with another value.
-        places: Vec<Place>,
+        places: Vec<MapPoint>,
     },
     /// The map has no image there.
     #[error("Newton's method left the map at a residual of {residual:.1e}: {reason}")]
-    Lost {
+    NoImage {
         /// The map's reason.
-        reason: Lost,
+        reason: NoImage,
         /// Largest component of P(x_i) - x_(i+1); infinite at the start.
         residual: f64,
         /// The last guess that has images, or the start.
-        places: Vec<Place>,
+        places: Vec<MapPoint>,
     },
 }
 
 impl NotFound {
     /// Whether the work was stopped from outside.
     pub(crate) fn is_stop(&self) -> bool {
-        let Self::Lost { reason, .. } = self else {
+        let Self::NoImage { reason, .. } = self else {
             return false;
         };
-        *reason == Lost::Interrupted
+        *reason == NoImage::Interrupted
     }
 }

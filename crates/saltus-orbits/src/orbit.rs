@@ -3,7 +3,7 @@
 use crate::events::{Switch, switches};
 use crate::kept::{Kept, kept};
 use crate::linear::{self, minus, size};
-use crate::map::{Crossing, Family, Place, Touch};
+use crate::map::{Crossing, MapPoint, ParametricMap, Touch};
 use crate::matrix::Matrix;
 use crate::newton::{NewtonOptions, NotFound};
 use crate::shooting::{Guess, Pass, Shooting};
@@ -83,7 +83,7 @@ pub struct Orbit {
     /// Value of each parameter.
     pub parameters: Vec<f64>,
     /// Its places, one per iterate: as many as the period.
-    pub places: Vec<Place>,
+    pub places: Vec<MapPoint>,
     /// Floquet multipliers, by falling modulus.
     pub multipliers: Vec<Multiplier>,
     /// Derivative of the map once around, at the first place.
@@ -216,19 +216,19 @@ impl Orbit {
 ///
 /// # Errors
 /// If the start is no orbit's start, or no orbit was found: see [`NotFound`].
-pub fn find_orbit<F: Family + ?Sized>(
+pub fn find_orbit<F: ParametricMap + ?Sized>(
     family: &F,
     parameters: &[f64],
-    start: &[Place],
+    start: &[MapPoint],
     options: &NewtonOptions,
 ) -> Result<Orbit, NotFound> {
     check(family, start)?;
-    let guess = |places: &[Place]| Guess {
+    let guess = |places: &[MapPoint]| Guess {
         parameters: parameters.to_vec(),
         places: places.to_vec(),
     };
-    let solve = |places: &[Place], kept: &[Kept]| {
-        let once = |places: &[Place]| {
+    let solve = |places: &[MapPoint], kept: &[Kept]| {
+        let once = |places: &[MapPoint]| {
             let pass = plain(family, options, kept).correct(&guess(places), &[])?;
             Orbit::of(&pass, options.tolerance)
         };
@@ -257,7 +257,7 @@ pub fn find_orbit<F: Family + ?Sized>(
     let Some(all) = quadratic.or_else(|| if alone { None } else { linear() }) else {
         return first;
     };
-    let member = |places: &[Place]| {
+    let member = |places: &[MapPoint]| {
         let orbit = solve(places, &all)?;
         let x = &orbit.places[0].x;
         if all.iter().all(|kept| kept.holds(x)) {
@@ -290,9 +290,13 @@ fn plain<'a, F: ?Sized>(
 }
 
 /// Whether Newton's method can begin at a start.
-pub(crate) fn check<F: Family + ?Sized>(family: &F, start: &[Place]) -> Result<(), NotFound> {
+pub(crate) fn check<F: ParametricMap + ?Sized>(
+    family: &F,
+    start: &[MapPoint],
+) -> Result<(), NotFound> {
     let dimension = family.dimension();
-    let bad = |place: &Place| place.x.len() != dimension || place.x.iter().any(|x| !x.is_finite());
+    let bad =
+        |place: &MapPoint| place.x.len() != dimension || place.x.iter().any(|x| !x.is_finite());
     match start.iter().position(bad) {
         Some(place) => Err(NotFound::BadPlace { place, dimension }),
         None if start.is_empty() => Err(NotFound::NoPlaces),
@@ -301,7 +305,7 @@ pub(crate) fn check<F: Family + ?Sized>(family: &F, start: &[Place]) -> Result<(
 }
 
 /// Number of iterates after which the places repeat.
-pub(crate) fn shortest_period(places: &[Place]) -> usize {
+pub(crate) fn shortest_period(places: &[MapPoint]) -> usize {
     let n = places.len();
     let scale = places.iter().map(|p| size(&p.x)).fold(1.0, f64::max);
     let repeats = |m: &usize| {

@@ -1,11 +1,11 @@
 //! The curve that a branch is: points on it, tangents, chords.
 
-use crate::continuation::{Along, ContinuationError, ContinuationOptions, Point};
+use crate::continuation::{ContinuationError, ContinuationOptions, ParameterRange, Point};
 use crate::differences::Free;
 use crate::linear::{self, minus, norm, unit};
 use crate::orbit::check;
 use crate::shooting::{Change, Guess, Pass, Shooting};
-use crate::{Family, Matrix, NotFound, Orbit};
+use crate::{Matrix, NotFound, Orbit, ParametricMap};
 
 /// Two branches cross where the equations lose a rank to within this. Derivatives by differences have errors of
 /// 1e-11, which turn the tangent by up to 1e-6 where the rest is larger.
@@ -20,14 +20,14 @@ pub(crate) struct Path<'a, F: ?Sized> {
     pub(crate) options: &'a ContinuationOptions,
 }
 
-impl<'a, F: Family + ?Sized> Path<'a, F> {
+impl<'a, F: ParametricMap + ?Sized> Path<'a, F> {
     pub(crate) fn new(
         family: &'a F,
         start: &Orbit,
-        along: &Along,
+        along: &ParameterRange,
         options: &'a ContinuationOptions,
     ) -> Result<Self, ContinuationError> {
-        let Along {
+        let ParameterRange {
             parameter: index,
             from,
             to,

@@ -1,7 +1,9 @@
 //! The orbit that a motion has come to.
 
 use crate::linear::{minus, size};
-use crate::{Family, MAX_PERIOD, NewtonOptions, Orbit, Place, Shot, Stability, find_orbit};
+use crate::{
+    MAX_PERIOD, MapPoint, MapRequest, NewtonOptions, Orbit, ParametricMap, Stability, find_orbit,
+};
 
 /// A motion that comes back nearer than this, relative to the largest state or 1, has come to a cycle or is on its last
 /// way to one: the multipliers alone decide how it gets there.
@@ -10,10 +12,14 @@ const NEAR: f64 = 1e-5;
 /// The orbit of up to [`MAX_PERIOD`] iterates that the motion is on at `place`, if it is on one that is not unstable.
 ///
 /// Ask when deviations have been seen to die out: on a chaotic attractor it takes all these iterates to find none.
-pub fn settled<F: Family + ?Sized>(family: &F, parameters: &[f64], place: &Place) -> Option<Orbit> {
+pub fn settled<F: ParametricMap + ?Sized>(
+    family: &F,
+    parameters: &[f64],
+    place: &MapPoint,
+) -> Option<Orbit> {
     let mut places = vec![place.clone()];
     for _ in 0..MAX_PERIOD {
-        let shot = Shot {
+        let shot = MapRequest {
             parameters,
             start: places.last()?,
             derivative: false,

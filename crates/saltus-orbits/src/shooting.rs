@@ -15,7 +15,7 @@ use crate::differences::{DIFFERENCE, Free, moved, slope};
 use crate::events::switches;
 use crate::kept::Kept;
 use crate::linear::{self, minus, plus, size, times, whole_norm};
-use crate::map::{Family, Image, Lost, Place, Shot};
+use crate::map::{Image, MapPoint, MapRequest, NoImage, ParametricMap};
 use crate::matrix::Matrix;
 use crate::newton::{NewtonOptions, NotFound};
 
@@ -43,7 +43,7 @@ pub(crate) struct Shooting<'a, F: ?Sized> {
 pub(crate) struct Guess {
     pub(crate) parameters: Vec<f64>,
     /// One place per iterate; those inside segments are computed from the first one.
-    pub(crate) places: Vec<Place>,
+    pub(crate) places: Vec<MapPoint>,
 }
 
 impl Guess {
@@ -75,7 +75,7 @@ type Columns = Vec<Vec<f64>>;
 #[derive(Clone, Debug)]
 pub(crate) struct Pass {
     pub(crate) parameters: Vec<f64>,
-    pub(crate) places: Vec<Place>,
+    pub(crate) places: Vec<MapPoint>,
     pub(crate) images: Vec<Image>,
     /// C_i.
     columns: Vec<Columns>,
@@ -234,7 +234,7 @@ impl Pass {
     /// This orbit as a guess, with modes from the images: modes at the section follow from the motion.
     fn guess(&self) -> Guess {
         let n = self.places.len();
-        let place = |i: usize| Place {
+        let place = |i: usize| MapPoint {
             modes: self.images[(i + n - 1) % n].place.modes.clone(),
             x: self.places[i].x.clone(),
         };
@@ -245,11 +245,11 @@ impl Pass {
     }
 }
 
-impl<F: Family + ?Sized> Shooting<'_, F> {
+impl<F: ParametricMap + ?Sized> Shooting<'_, F> {
     /// Newton's method from a guess, with `rows` (d_1, dp) = 0 in each step: the conditions hold in the end
     /// as far as they hold for the guess.
     pub(crate) fn correct(&self, guess: &Guess, rows: &[Vec<f64>]) -> Result<Pass, NotFound> {
-        let mut pass = self.pass(guess).map_err(|reason| NotFound::Lost {
+        let mut pass = self.pass(guess).map_err(|reason| NotFound::NoImage {
             reason,
             residual: f64::INFINITY,
             places: guess.places.clone(),
@@ -304,7 +304,7 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
                     return Ok(Some(next));
                 }
                 Ok(_) => reason = None,
-                Err(stop @ Lost::Interrupted) => return Err(lost(pass)(stop)),
+                Err(stop @ NoImage::Interrupted) => return Err(lost(pass)(stop)),
                 Err(other) => reason = Some(other),
             }
             part /= 2.0;
@@ -313,7 +313,7 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
     }
 
     /// One way round: all segments side by side, one call per place within a segment.
-    pub(crate) fn pass(&self, guess: &Guess) -> Result<Pass, Lost> {
+    pub(crate) fn pass(&self, guess: &Guess) -> Result<Pass, NoImage> {
         let n = guess.places.len();
         let segments = self.newton.segments.unwrap_or(n).clamp(1, n);
         let first = |segment: usize| segment * n / segments;
@@ -353,16 +353,16 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
     fn shoot(
         &self,
         parameters: &[f64],
-        places: &[Place],
+        places: &[MapPoint],
         which: &[usize],
-    ) -> Result<Vec<(Image, Columns)>, Lost> {
+    ) -> Result<Vec<(Image, Columns)>, NoImage> {
         let beside = |free| [-DIFFERENCE, DIFFERENCE].map(|part| moved(parameters, free, part));
         let sides: Vec<Vec<f64>> = self.free.iter().flat_map(beside).collect();
-        let shots: Vec<Shot<'_>> = which
+        let shots: Vec<MapRequest<'_>> = which
             .iter()
             .flat_map(|&i| {
                 let start = &places[i];
-                let shot = move |parameters, derivative| Shot {
+                let shot = move |parameters, derivative| MapRequest {
                     parameters,
                     start,
                     derivative,
@@ -376,7 +376,7 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
         for &i in which {
             let image = checked(answers.next(), places[i].x.len())?;
             let mut columns = Vec::with_capacity(self.free.len());
-            let shot = Shot {
+            let shot = MapRequest {
                 parameters,
                 start: &places[i],
                 derivative: true,
@@ -393,29 +393,29 @@ impl<F: Family + ?Sized> Shooting<'_, F> {
 }
 
 /// The failure of a step from a pass, which leads out of the map.
-fn lost(pass: &Pass) -> impl Fn(Lost) -> NotFound {
-    |reason| NotFound::Lost {
+fn lost(pass: &Pass) -> impl Fn(NoImage) -> NotFound {
+    |reason| NotFound::NoImage {
         reason,
         residual: pass.residual,
         places: pass.places.clone(),
     }
 }
 
-fn missing() -> Result<Image, Lost> {
-    Err(Lost::Ended("no answer for a shot".into()))
+fn missing() -> Result<Image, NoImage> {
+    Err(NoImage::Ended("no answer for a shot".into()))
 }
 
 /// An image that Newton can use: a finite state and a derivative of the right shape.
-fn checked(answer: Option<Result<Image, Lost>>, n: usize) -> Result<Image, Lost> {
+fn checked(answer: Option<Result<Image, NoImage>>, n: usize) -> Result<Image, NoImage> {
     let image = answer.unwrap_or_else(missing)?;
     let finite = image.place.x.iter().all(|x| x.is_finite());
     match &image.derivative {
         _ if image.place.x.len() != n || !finite => {
-            Err(Lost::Ended("the image is not finite".into()))
+            Err(NoImage::Ended("the image is not finite".into()))
         }
         Some(d) if d.nrows() == n && d.ncols() == n && linear::is_finite(d) => Ok(image),
-        Some(_) => Err(Lost::Ended("the derivative is not finite".into())),
-        None => Err(Lost::Ended(
+        Some(_) => Err(NoImage::Ended("the derivative is not finite".into())),
+        None => Err(NoImage::Ended(
             "no derivative, although it was asked for".into(),
         )),
     }

@@ -4,7 +4,7 @@ use crate::continuation::ContinuationOptions;
 use crate::differences::Free;
 use crate::linear::{self, dot, norm, plus, scaled};
 use crate::shooting::{Change, Pass, Shooting};
-use crate::{Family, Multiplier, NotFound, Orbit, SpecialKind, events};
+use crate::{Multiplier, NotFound, Orbit, ParametricMap, SpecialKind, events};
 
 /// Grazing is approached to this value of the guard, since there is no value beyond zero.
 const TOUCHING: f64 = 1e-9;
@@ -44,7 +44,7 @@ impl Station {
     }
 }
 
-impl<F: Family + ?Sized> Surface<'_, F> {
+impl<F: ParametricMap + ?Sized> Surface<'_, F> {
     pub(crate) fn coordinates(&self, orbit: &Orbit) -> Vec<f64> {
         let mut u = orbit.places[0].x.clone();
         let free = self.free.iter();

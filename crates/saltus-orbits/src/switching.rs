@@ -6,7 +6,7 @@ use crate::linear::{self, dot, plus, scaled, unit};
 use crate::locate::NARROW;
 use crate::path::Path;
 use crate::shooting::Guess;
-use crate::{Family, Orbit, Special, find_orbit};
+use crate::{Orbit, ParametricMap, Special, find_orbit};
 
 /// Steps of the secant method at most.
 const SECANT: usize = 12;
@@ -15,7 +15,7 @@ const SECANT: usize = 12;
 /// some 1e-7.
 const ASIDE: f64 = 1e-4;
 
-impl<F: Family + ?Sized> Path<'_, F> {
+impl<F: ParametricMap + ?Sized> Path<'_, F> {
     /// First point of the branch of twice the period: the orbit taken twice, with the tangent (v, -v) in its two
     /// halves, where v is the eigenvector of the multiplier -1.
     pub(crate) fn doubled(&self, special: &Special) -> Option<Point> {

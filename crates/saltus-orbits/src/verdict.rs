@@ -104,7 +104,7 @@ impl MotionKind {
 
 /// Reasons why the kind of a motion is not known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Doubt {
+pub enum UndecidedReason {
     /// Too few iterates for any error, or the sign of the exponent drowns in it.
     Sign,
     /// The exponent is positive, but the growth is not yet more than leaving an unstable cycle may show.
@@ -123,7 +123,7 @@ pub struct Verdict {
     /// Kind of the motion.
     pub kind: MotionKind,
     /// Reason why it is undecided; `None` for every other kind.
-    pub doubt: Option<Doubt>,
+    pub doubt: Option<UndecidedReason>,
     /// Probability that the test behind the name did not come out by chance; where the kind is undecided,
     /// that the largest exponent has the sign it shows.
     pub confidence: f64,
@@ -160,7 +160,7 @@ impl Verdict {
     /// Whether more iterates may yet tell. Those of an orbit on an unstable cycle do not.
     pub fn needs_more(&self) -> bool {
         self.doubt
-            .is_some_and(|doubt| doubt != Doubt::UnstableCycle)
+            .is_some_and(|doubt| doubt != UndecidedReason::UnstableCycle)
     }
 }
 
@@ -171,7 +171,9 @@ pub fn judge(spectrum: &Spectrum, recurrence: Recurrence, criteria: &Criteria) -
     let evidence = Evidence::of(spectrum, criteria);
     let (named, confidence) = match recurrence {
         Recurrence::Recurs { period, rest } if rest <= criteria.rest => evidence.of_cycle(period),
-        Recurrence::Recurs { .. } | Recurrence::Drifting => evidence.undecided(Doubt::Drift),
+        Recurrence::Recurs { .. } | Recurrence::Drifting => {
+            evidence.undecided(UndecidedReason::Drift)
+        }
         Recurrence::Open => evidence.of_open(),
     };
     Verdict {
@@ -205,32 +207,32 @@ impl<'a> Evidence<'a> {
         }
     }
 
-    fn of_cycle(&self, period: u32) -> (Result<MotionKind, Doubt>, f64) {
+    fn of_cycle(&self, period: u32) -> (Result<MotionKind, UndecidedReason>, f64) {
         if 1.0 - self.positive >= self.criteria.confidence {
             (Ok(MotionKind::Periodic(period)), 1.0 - self.positive)
         } else if self.positive >= self.criteria.confidence {
-            self.undecided(Doubt::UnstableCycle)
+            self.undecided(UndecidedReason::UnstableCycle)
         } else {
-            self.undecided(Doubt::Sign)
+            self.undecided(UndecidedReason::Sign)
         }
     }
 
-    fn of_open(&self) -> (Result<MotionKind, Doubt>, f64) {
+    fn of_open(&self) -> (Result<MotionKind, UndecidedReason>, f64) {
         let sure = |probability: f64| probability >= self.criteria.confidence;
         if sure(1.0 - self.chance) {
             (Ok(MotionKind::QuasiPeriodic), 1.0 - self.chance)
         } else if sure(self.positive) && self.growth > self.criteria.growth {
             (Ok(MotionKind::Chaotic), self.positive)
         } else if sure(self.positive) {
-            self.undecided(Doubt::Growth)
+            self.undecided(UndecidedReason::Growth)
         } else if sure(1.0 - self.positive) {
-            self.undecided(Doubt::NoPeriod)
+            self.undecided(UndecidedReason::NoPeriod)
         } else {
-            self.undecided(Doubt::Sign)
+            self.undecided(UndecidedReason::Sign)
         }
     }
 
-    fn undecided(&self, doubt: Doubt) -> (Result<MotionKind, Doubt>, f64) {
+    fn undecided(&self, doubt: UndecidedReason) -> (Result<MotionKind, UndecidedReason>, f64) {
         let sign = self.positive.max(1.0 - self.positive);
         (Err(doubt), sign)
     }

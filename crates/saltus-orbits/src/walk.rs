@@ -2,12 +2,12 @@
 //! step.
 
 use crate::continuation::{Branch, End, Point};
-use crate::instant::at_instant;
 use crate::linear::{dot, minus, norm, scaled, unit};
 use crate::orbit::shortest_period;
 use crate::path::Path;
+use crate::sampling_instant::at_instant;
 use crate::special::{Special, SpecialKind};
-use crate::{Family, Multiplier, events};
+use crate::{Multiplier, ParametricMap, events};
 
 /// The corrector stays within this many steps of the prediction, or it may have found another branch.
 const NEAR: f64 = 2.0;
@@ -34,13 +34,13 @@ const ROUND: usize = 5;
 /// The same orbit again: both were solved for to far below.
 const SAME: f64 = 1e-6;
 
-impl<F: Family + ?Sized> Path<'_, F> {
-    /// A branch from a point along its tangent. A branch is `born` at a special point of another one, which
+impl<F: ParametricMap + ?Sized> Path<'_, F> {
+    /// A branch from a point along its tangent. A branch is `origin` at a special point of another one, which
     /// is none of its own; where it comes back there it is closed.
     pub(crate) fn walk(
         &self,
         seed: Point,
-        born: Option<&Special>,
+        origin: Option<&Special>,
         keep_going: &mut dyn FnMut(&Point) -> bool,
     ) -> Branch {
         let mut go_on = keep_going(&seed);
@@ -55,7 +55,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
                 break end;
             }
             let mut closed = false;
-            let point = match self.seen(&branch.points, born.is_some(), step) {
+            let point = match self.seen(&branch.points, origin.is_some(), step) {
                 Ok((point, specials)) => {
                     step = self.next_step(&branch.points[branch.points.len() - 1], &point, step);
                     branch.specials.extend(specials);
@@ -63,7 +63,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
                     if branch.specials.last().is_some_and(meets) {
                         break End::Halved;
                     }
-                    closed = self.back_at(born, &mut branch.specials);
+                    closed = self.back_at(origin, &mut branch.specials);
                     point
                 }
                 Err(obstacle) => match self.past(&mut branch, step, obstacle) {
@@ -128,10 +128,15 @@ impl<F: Family + ?Sized> Path<'_, F> {
     }
 
     /// The point `step` ahead and the special points before it, up to one where the branch ends.
-    fn seen(&self, points: &[Point], born: bool, step: f64) -> Result<(Point, Vec<Special>), End> {
+    fn seen(
+        &self,
+        points: &[Point],
+        origin: bool,
+        step: f64,
+    ) -> Result<(Point, Vec<Special>), End> {
         let last = &points[points.len() - 1];
         let point = self.next(last, step)?;
-        if born && points.len() == 1 {
+        if origin && points.len() == 1 {
             return match critical(&point) {
                 true => Ok((point, Vec::new())),
                 false => Err(End::StepTooSmall),
@@ -258,9 +263,9 @@ impl<F: Family + ?Sized> Path<'_, F> {
 
     /// Whether the last special points are those from the birth of a branch on, which are dropped. There the orbits
     /// are too uncertain to be compared with the first one.
-    fn back_at(&self, born: Option<&Special>, specials: &mut Vec<Special>) -> bool {
-        let back = born.and_then(|born| {
-            let again = |s: &Special| s.kind == born.kind && self.same(born, s);
+    fn back_at(&self, origin: Option<&Special>, specials: &mut Vec<Special>) -> bool {
+        let back = origin.and_then(|origin| {
+            let again = |s: &Special| s.kind == origin.kind && self.same(origin, s);
             specials.iter().position(again)
         });
         back.is_some_and(|back| {

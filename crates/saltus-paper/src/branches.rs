@@ -2,16 +2,16 @@
 
 use std::sync::Arc;
 
-use saltus::hybrid::{Leg, Point as State, record};
+use saltus::hybrid::{Point as State, Segment, record};
 use saltus::model::{Inertia, Model, ModelError, PreparedPlate};
 use saltus::orbits::{
-    Along, BranchesOptions, ContinuationOptions, Family, Limb, MotionKind, NewtonOptions, Orbit,
-    Place, Point, SpecialKind, branches, find_orbit,
+    BranchWithOrigin, BranchesOptions, ContinuationOptions, MapPoint, MotionKind, NewtonOptions,
+    Orbit, ParameterRange, ParametricMap, Point, SpecialKind, branches, find_orbit,
 };
 use saltus::physics::{ContactLaw, FrequencyReference, Plate};
 use saltus::study::{
-    Control, Lineages, OrbitError, OrbitSearch, Search, Starts, StudyError, Sweep, follow,
-    orbit_of, place, recurrence, second_opinion, sequence, settle, stroboscopic,
+    ContinuedAttractors, Control, OrbitError, OrbitSearch, Search, Starts, StudyError, Sweep,
+    follow, orbit_of, place, recurrence, second_opinion, sequence, settle, stroboscopic,
 };
 
 use crate::diagrams::{Diagram, Met, REPEATS};
@@ -20,7 +20,7 @@ use crate::setting::setup;
 use crate::stretches::{Stretch, collect};
 
 /// The scanned range of zeta_h.
-const ALONG: Along = Along {
+const ALONG: ParameterRange = ParameterRange {
     parameter: 0,
     from: 0.1,
     to: 0.5,
@@ -83,7 +83,7 @@ pub struct Detail {
     /// All their special points, by falling damping ratio.
     pub transitions: Vec<Transition>,
     /// All attractors, matched along the damping ratio.
-    pub attractors: Lineages,
+    pub attractors: ContinuedAttractors,
 }
 
 /// A branch as it is drawn.
@@ -158,7 +158,7 @@ struct Panel<'a> {
 /// Knowledge of a panel.
 #[derive(Default)]
 struct Known {
-    limbs: Vec<Limb>,
+    limbs: Vec<BranchWithOrigin>,
     stretches: Vec<Stretch>,
 }
 
@@ -271,7 +271,7 @@ impl Panel<'_> {
     }
 
     /// Follows the cycles of motions that are on none of the known ones.
-    fn explain<F: Family>(
+    fn explain<F: ParametricMap>(
         &self,
         family: &F,
         seeds: Vec<Seed>,
@@ -310,25 +310,29 @@ impl Panel<'_> {
 
     /// The stable cycle near a motion, or the one that has just doubled into it. Beside a fold a motion that is nearly there
     /// may still be too far for Newton's method.
-    fn cycle<F: Family>(&self, family: &F, seed: &Seed) -> Result<Option<Orbit>, StudyError> {
+    fn cycle<F: ParametricMap>(
+        &self,
+        family: &F,
+        seed: &Seed,
+    ) -> Result<Option<Orbit>, StudyError> {
         let model = self.model_at(seed.zeta)?;
         let (period, patience) = (seed.period as u64, self.effort.patience);
         let mut start = seed.state.clone();
         for wait in [0, patience] {
             let run = |start, periods| {
                 let system = model.system().clone();
-                let leg = Leg {
+                let segment = Segment {
                     system,
                     start,
                     periods,
                 };
-                record(&leg, &self.control.options)
+                record(&segment, &self.control.options)
             };
             if wait > 0 {
                 start = run(start, wait.next_multiple_of(period))?.end.point;
             }
             let samples = run(start.clone(), period)?.samples;
-            let places: Vec<Place> = samples.iter().map(|at| place(&model, at)).collect();
+            let places: Vec<MapPoint> = samples.iter().map(|at| place(&model, at)).collect();
             let orbit = find_orbit(family, &[seed.zeta], &places, &NewtonOptions::default());
             let met = |orbit: &Orbit| orbit.stable() || doubles_beside(orbit);
             if let Some(orbit) = orbit.ok().filter(met) {
@@ -339,7 +343,7 @@ impl Panel<'_> {
     }
 
     /// Adds the branch of an orbit, with those that grow from it.
-    fn grow<F: Family>(
+    fn grow<F: ParametricMap>(
         &self,
         family: &F,
         orbit: &Orbit,
@@ -383,7 +387,7 @@ impl Panel<'_> {
         }
         let section = |orbit: &Orbit| {
             let model = self.model_at(orbit.parameters[0])?;
-            let place = |place: &Place| [model.z(0, &place.x), model.v(0, &place.x)];
+            let place = |place: &MapPoint| [model.z(0, &place.x), model.v(0, &place.x)];
             Ok::<_, StudyError>(orbit.places.iter().map(place).collect())
         };
         collect(&known.limbs, first, section, &mut known.stretches)
@@ -408,7 +412,7 @@ impl Panel<'_> {
         }
     }
 
-    fn attractors(&self) -> Result<Lineages, StudyError> {
+    fn attractors(&self) -> Result<ContinuedAttractors, StudyError> {
         let values = Sweep::linspace(ALONG.from, ALONG.to, self.effort.census_values);
         let starts = Starts {
             count: self.effort.census_starts,
@@ -422,7 +426,12 @@ impl Panel<'_> {
 
     /// Whether a branch is not, or not as far, among those known: one from a period halving on may be that of an earlier
     /// motion.
-    fn leads_further<F: Family>(&self, family: &F, known: &[Limb], limb: &Limb) -> bool {
+    fn leads_further<F: ParametricMap>(
+        &self,
+        family: &F,
+        known: &[BranchWithOrigin],
+        limb: &BranchWithOrigin,
+    ) -> bool {
         let points = &limb.branch.points;
         let stable = || points.iter().filter(|point| point.stable);
         let middle = points.get(points.len() / 2);
@@ -432,7 +441,12 @@ impl Panel<'_> {
     }
 
     /// Whether an orbit lies on one of the branches: the orbit of that branch at its damping ratio is the same.
-    fn is_known<F: Family>(&self, family: &F, limbs: &[Limb], orbit: &Orbit) -> bool {
+    fn is_known<F: ParametricMap>(
+        &self,
+        family: &F,
+        limbs: &[BranchWithOrigin],
+        orbit: &Orbit,
+    ) -> bool {
         let zeta = orbit.parameters[0];
         let near = |pair: &&[Point]| {
             let [a, b] = [&pair[0], &pair[1]].map(|point| point.parameter);
@@ -446,10 +460,10 @@ impl Panel<'_> {
         })
     }
 
-    fn transitions<F: Family>(
+    fn transitions<F: ParametricMap>(
         &self,
         family: &F,
-        limbs: &[Limb],
+        limbs: &[BranchWithOrigin],
     ) -> Result<Vec<Transition>, StudyError> {
         let mut out: Vec<Transition> = Vec::new();
         let all = limbs.iter().map(|limb| &limb.branch);
@@ -489,7 +503,7 @@ impl Panel<'_> {
         Ok(out)
     }
 
-    fn drawn(&self, limb: &Limb) -> Result<Drawn, StudyError> {
+    fn drawn(&self, limb: &BranchWithOrigin) -> Result<Drawn, StudyError> {
         let points = &limb.branch.points;
         let period = points.first().map_or(0, |point| point.orbit.period());
         let mut out = Drawn {
@@ -525,7 +539,7 @@ impl Panel<'_> {
 }
 
 /// A motion on each cycle of a census.
-fn of_census(attractors: &Lineages) -> Vec<Seed> {
+fn of_census(attractors: &ContinuedAttractors) -> Vec<Seed> {
     let rows = attractors.rows.iter();
     let rows = rows.filter_map(|row| Some((row.value, row.census.as_ref().ok()?)));
     let all = rows.flat_map(|(zeta, census)| census.attractors.iter().map(move |one| (zeta, one)));
@@ -549,8 +563,11 @@ fn of_census(attractors: &Lineages) -> Vec<Seed> {
 }
 
 /// New branches with labels that go on from those of the known ones.
-fn renumbered(mut limbs: Vec<Limb>, known: &[Limb]) -> Vec<Limb> {
-    let specials = |limbs: &[Limb], short: &str| {
+fn renumbered(
+    mut limbs: Vec<BranchWithOrigin>,
+    known: &[BranchWithOrigin],
+) -> Vec<BranchWithOrigin> {
+    let specials = |limbs: &[BranchWithOrigin], short: &str| {
         let all = limbs.iter().flat_map(|limb| &limb.branch.specials);
         all.filter(|special| special.kind.short() == short).count()
     };
@@ -588,7 +605,7 @@ fn doubles_beside(orbit: &Orbit) -> bool {
 /// Whether two orbits are one, begun at any place.
 fn same(a: &Orbit, b: &Orbit) -> bool {
     let n = a.period();
-    let apart = |a: &Place, b: &Place| {
+    let apart = |a: &MapPoint, b: &MapPoint| {
         let pairs = a.x.iter().zip(&b.x);
         pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
     };

@@ -5,7 +5,7 @@ use saltus::model::{Contact, Inertia, Model, Section};
 use saltus::orbits::{Criteria, MotionKind, Recurrence, Verdict, judge};
 use saltus::physics::{ContactLaw, FrequencyReference};
 use saltus::study::{
-    Control, Growth, StudyError, Trajectory, growth, recurrence, settle, simulate,
+    Control, LyapunovRun, StudyError, Trajectory, lyapunov_of_states, recurrence, settle, simulate,
 };
 
 use crate::effort::Effort;
@@ -154,7 +154,7 @@ pub fn run_cases(
         simulate(model, start, KEPT, HISTORY, POINTS, control)
     });
     let trajectories = trajectories.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let exponents = growth(&starts, 1, effort.exponent_periods, control)?;
+    let exponents = lyapunov_of_states(&starts, 1, effort.exponent_periods, control)?;
     let parts = starts.iter().zip(trajectories).zip(&exponents);
     let parts = cases().into_iter().zip(parts);
     Ok(parts
@@ -189,7 +189,7 @@ fn settled(
 }
 
 /// The findings for one case, from its settled motion and its exponents.
-fn result(case: Case, model: &Model, trajectory: Trajectory, growth: &Growth) -> CaseResult {
+fn result(case: Case, model: &Model, trajectory: Trajectory, growth: &LyapunovRun) -> CaseResult {
     let column =
         |pick: fn(&Section) -> f64| -> Vec<f64> { trajectory.section.iter().map(pick).collect() };
     let (z, v) = (column(|s| s.z[0]), column(|s| s.v[0]));

@@ -2,7 +2,7 @@
 
 use saltus::orbits::Exponent;
 use saltus::physics::{ContactLaw, FrequencyReference};
-use saltus::study::{Control, StudyError, growth};
+use saltus::study::{Control, StudyError, lyapunov_of_states};
 
 use crate::diagrams::Diagram;
 use crate::effort::Effort;
@@ -35,7 +35,7 @@ pub fn panel_exponents(
             .filter_map(|row| Some((row.value, row.end.clone()?)));
         let starts = ended.map(|(zeta, end)| Ok((diagram.model(zeta)?, end)));
         let starts = starts.collect::<Result<Vec<_>, StudyError>>()?;
-        let found = growth(&starts, 1, effort.panel_exponent_periods, control)?;
+        let found = lyapunov_of_states(&starts, 1, effort.panel_exponent_periods, control)?;
         let values = starts.iter().zip(found).filter_map(|((model, _), growth)| {
             let zeta = model.setup().jumpers[0].damping_ratio;
             Some((zeta, growth.largest()?))

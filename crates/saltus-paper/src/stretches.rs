@@ -5,7 +5,7 @@
 //! cycle stays on it, however slowly transients die. Near its ends they take thousands of periods, so a sweep
 //! is no measure of where a cycle begins and ends.
 
-use saltus::orbits::{Branch, End, Limb, Orbit, Special, SpecialKind};
+use saltus::orbits::{Branch, BranchWithOrigin, End, Orbit, Special, SpecialKind};
 
 /// Two bounds are one special point if they are nearer: it is located to far less.
 const SAME: f64 = 1e-7;
@@ -139,7 +139,7 @@ pub(crate) fn families(all: &[Stretch]) -> Vec<(usize, [f64; 2])> {
         let ends = [&mother.from, &mother.to];
         ends.iter().any(|end| one.begins(end, mother.period))
     };
-    let born = |one: &&Stretch| all.iter().any(|mother| gives(mother, one));
+    let origin = |one: &&Stretch| all.iter().any(|mother| gives(mother, one));
     let family = |first: &Stretch| {
         let mut range = [first.from.damping_ratio, first.to.damping_ratio];
         let mut open = vec![first];
@@ -157,14 +157,14 @@ pub(crate) fn families(all: &[Stretch]) -> Vec<(usize, [f64; 2])> {
         }
         (first.period, range)
     };
-    let mut out: Vec<_> = all.iter().filter(|one| !born(one)).map(family).collect();
+    let mut out: Vec<_> = all.iter().filter(|one| !origin(one)).map(family).collect();
     out.sort_by(|a, b| b.1[1].total_cmp(&a.1[1]));
     out
 }
 
 /// Adds the stretches of `limbs` from number `first` on that are new. `section` gives the section of an orbit.
 pub(crate) fn collect<E>(
-    limbs: &[Limb],
+    limbs: &[BranchWithOrigin],
     first: usize,
     section: impl Fn(&Orbit) -> Result<Vec<[f64; 2]>, E>,
     known: &mut Vec<Stretch>,
@@ -220,7 +220,7 @@ impl<'a> Cut<'a> {
 }
 
 /// The stable parts of a limb, in the order of its points.
-fn runs<'a>(limbs: &'a [Limb], limb: &'a Limb) -> Vec<Run<'a>> {
+fn runs<'a>(limbs: &'a [BranchWithOrigin], limb: &'a BranchWithOrigin) -> Vec<Run<'a>> {
     let branch = &limb.branch;
     let points = &branch.points;
     let begins_stable = match branch.specials.first() {
@@ -291,7 +291,7 @@ fn last_special(branch: &Branch, side: usize) -> Option<&Special> {
 }
 
 /// End of a limb: where it meets or comes from another one, a special point of either.
-fn end(limbs: &[Limb], limb: &Limb, side: usize) -> Bound {
+fn end(limbs: &[BranchWithOrigin], limb: &BranchWithOrigin, side: usize) -> Bound {
     let branch = &limb.branch;
     let point = &branch.points[side * (branch.points.len() - 1)];
     let is_origin = |special: &&Special| Some(&special.label) == limb.origin.as_ref();

@@ -8,8 +8,8 @@ use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 use saltus_commands::{
-    Answer as Answered, Context, Destination, Failure, Fill, Folder, Found, Keep, Place, Request,
-    Store, Told, about, bibtex, citations,
+    Answer as Answered, CommandError, Destination, Existing, Fill, Folder, Pieces, PiecesAt,
+    Request, RunContext, Store, Told, about, bibtex, citations,
 };
 use saltus_config::Study;
 use saltus_results::{
@@ -57,22 +57,22 @@ pub(crate) fn ask(
     let (request, study) = question(request, study)?;
     let board: Arc<Board> = Arc::default();
     let keep = match pieces {
-        Some(pieces) => Some(Keep {
-            place: Place::Memory(pieces),
-            found: Found::Merge,
+        Some(pieces) => Some(Pieces {
+            place: PiecesAt::Memory(pieces),
+            found: Existing::Merge,
         }),
-        None => out.clone().map(|out| Keep {
-            place: Place::Beside(out),
+        None => out.clone().map(|out| Pieces {
+            place: PiecesAt::Beside(out),
             found: if resume {
-                Found::Resume
+                Existing::Resume
             } else {
-                Found::InTheWay
+                Existing::Refuse
             },
         }),
     };
     let watch = Arc::clone(&board);
     let answer = attended(py, &progress, &board, move |stop| {
-        let context = Context {
+        let context = RunContext {
             threads,
             stop: stop.clone(),
             watch: &*watch,
@@ -113,7 +113,7 @@ pub(crate) fn compute(
     let board: Arc<Board> = Arc::default();
     let watch = Arc::clone(&board);
     attended(py, &progress, &board, move |stop| {
-        let context = Context {
+        let context = RunContext {
             threads,
             stop: stop.clone(),
             watch: &*watch,
@@ -141,8 +141,8 @@ fn asked(
     request: Request,
     study: &Study,
     out: Option<&Path>,
-    context: &Context,
-) -> Result<Answer, Failure> {
+    context: &RunContext,
+) -> Result<Answer, CommandError> {
     let study = request.study(study)?;
     let destination = Destination {
         request: &request,
@@ -227,9 +227,9 @@ impl Answer {
     fn save(&self, py: Python<'_>, out: PathBuf) -> PyResult<()> {
         let known = Arc::clone(&self.known);
         attended(py, &None, &Arc::default(), move |stop| {
-            let context = Context {
+            let context = RunContext {
                 stop: stop.clone(),
-                ..Context::default()
+                ..RunContext::default()
             };
             let save = || {
                 let mut folder = Folder::stage(
@@ -298,7 +298,7 @@ impl Memory {
 }
 
 impl Store for Memory {
-    fn put_text(&mut self, name: &str, fill: Fill) -> Result<(), Failure> {
+    fn put_text(&mut self, name: &str, fill: Fill) -> Result<(), CommandError> {
         let mut text = Vec::new();
         // a vector takes everything
         let _ = fill(&mut text);
@@ -306,12 +306,12 @@ impl Store for Memory {
         Ok(())
     }
 
-    fn put_figure(&mut self, name: &str, figure: &Drawing) -> Result<(), Failure> {
+    fn put_figure(&mut self, name: &str, figure: &Drawing) -> Result<(), CommandError> {
         self.figures.push((name.to_owned(), figure.clone()));
         Ok(())
     }
 
-    fn put_dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), Failure> {
+    fn put_dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), CommandError> {
         for table in dataset.tables().iter().filter(|table| table.is_file()) {
             let columns = table.to_columns(&dataset)?;
             self.tables.push((format!("{}.csv", table.name()), columns));

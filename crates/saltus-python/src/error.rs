@@ -5,7 +5,7 @@ use std::any::Any;
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::import_exception;
 use pyo3::prelude::*;
-use saltus_commands::Failure;
+use saltus_commands::CommandError;
 use saltus_config::StudyError as Problem;
 use saltus_results::ResultsError;
 
@@ -16,25 +16,27 @@ import_exception!(saltus._errors, ResultError);
 import_exception!(saltus._errors, InternalError);
 
 /// The exception of a question that has no answer.
-pub(crate) fn of(failure: &Failure) -> PyErr {
+pub(crate) fn of(failure: &CommandError) -> PyErr {
     let text = match failure.help() {
         Some(help) => format!("{failure} ({help})"),
         None => failure.to_string(),
     };
     match failure {
-        Failure::Study(problem) => of_study(problem, &[]),
-        Failure::Lost(reason) => of(reason),
-        Failure::Refused { help, .. } => {
+        CommandError::Study(problem) => of_study(problem, &[]),
+        CommandError::Lost(reason) => of(reason),
+        CommandError::Refused { help, .. } => {
             StudyError::new_err((text, None::<String>, help.clone(), None::<usize>))
         }
-        Failure::Computation { .. } | Failure::Results(ResultsError::Png { .. }) => {
+        CommandError::Computation { .. } | CommandError::Results(ResultsError::Png { .. }) => {
             of_computation(text)
         }
-        Failure::Results(_)
-        | Failure::Work { .. }
-        | Failure::Incomplete { .. }
-        | Failure::Elsewhere { .. } => ResultError::new_err((text,)),
-        Failure::Interrupted | Failure::Suspended { .. } => PyKeyboardInterrupt::new_err((text,)),
+        CommandError::Results(_)
+        | CommandError::Work { .. }
+        | CommandError::Incomplete { .. }
+        | CommandError::Elsewhere { .. } => ResultError::new_err((text,)),
+        CommandError::Interrupted | CommandError::Suspended { .. } => {
+            PyKeyboardInterrupt::new_err((text,))
+        }
     }
 }
 

@@ -4,8 +4,8 @@
 
 mod answer;
 mod error;
-mod kept;
 mod running;
+mod saved;
 mod study;
 mod systems;
 
@@ -17,9 +17,9 @@ mod _native {
     #[pymodule_export]
     use crate::answer::{Answer, Figure, ask, compute, pieces, program, write};
     #[pymodule_export]
-    use crate::kept::{cite, rerun};
-    #[pymodule_export]
     use crate::running::{count, shut_down};
+    #[pymodule_export]
+    use crate::saved::{cite, rerun};
     #[pymodule_export]
     use crate::study::{describe, load, paper, paper_template, parse, resolve, schema};
     #[pymodule_export]

@@ -15,7 +15,7 @@ use std::time::Duration;
 
 use pyo3::exceptions::{PyRuntimeError, PySystemExit};
 use pyo3::prelude::*;
-use saltus_commands::{Stage, Watch};
+use saltus_commands::{Progress, Stage};
 
 use crate::error::{broken, of_computation};
 
@@ -59,7 +59,7 @@ impl Board {
     }
 }
 
-impl Watch for Board {
+impl Progress for Board {
     fn begin(&self, stage: Stage) {
         *lock(&self.stage) = Some(stage);
     }
@@ -73,7 +73,7 @@ impl Watch for Board {
 }
 
 /// Long work of one kind.
-pub(crate) struct Progress<'a> {
+pub(crate) struct Counting<'a> {
     pub(crate) call: Listener,
     pub(crate) what: &'a str,
     pub(crate) total: Option<u64>,
@@ -85,7 +85,7 @@ pub(crate) struct Progress<'a> {
 /// As [`attended`].
 pub(crate) fn run<T: Send + 'static>(
     py: Python<'_>,
-    progress: &Progress<'_>,
+    progress: &Counting<'_>,
     work: impl FnOnce(&AtomicBool, &AtomicU64) -> PyResult<T> + Send + 'static,
 ) -> PyResult<T> {
     let board: Arc<Board> = Arc::default();
@@ -304,7 +304,7 @@ pub(crate) fn count(
     stops: bool,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<u64> {
-    let progress = Progress {
+    let progress = Counting {
         call: progress,
         what: "counting",
         total: Some(total),

@@ -11,7 +11,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use saltus_hybrid::{
-    BuildError, Instructions, Leg, Options, Status, System, SystemBuilder, Transition, record,
+    BuildError, Instructions, Options, Segment, Status, System, SystemBuilder, Transition, record,
 };
 
 type Built = Result<System, BuildError>;
@@ -103,7 +103,7 @@ fn chain() -> Built {
 fn samples(name: &str, system: Built, start: &[f64]) -> String {
     let system = system.unwrap();
     let modes = vec![0; system.unit_count()];
-    let leg = Leg {
+    let segment = Segment {
         start: system.point(&modes, start),
         system,
         periods: 60,
@@ -112,7 +112,7 @@ fn samples(name: &str, system: Built, start: &[f64]) -> String {
         instructions: Instructions::Baseline,
         ..Options::default()
     };
-    let run = record(&leg, &options).unwrap();
+    let run = record(&segment, &options).unwrap();
     assert_eq!(run.end.status, Status::Completed);
     let mut line = name.to_owned();
     for x in run.samples.iter().flat_map(|point| &point.x[..start.len()]) {

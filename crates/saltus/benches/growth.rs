@@ -3,7 +3,7 @@
 
 use std::time::Instant;
 
-use saltus::hybrid::{Leg, Method, Options, record};
+use saltus::hybrid::{Method, Options, Segment, record};
 use saltus::model::{Inertia, PreparedPlate, Setup};
 use saltus::physics::{InPlaneBasis, Jumper, ModeSet};
 use saltus::study::{Control, settle};
@@ -74,7 +74,7 @@ fn row(side: u32, people: usize) -> Result<(), Box<dyn std::error::Error>> {
     let built = clock.elapsed();
 
     // One period of one trajectory says how many the measurement takes.
-    let leg = |periods| Leg {
+    let segment = |periods| Segment {
         system: model.system().clone(),
         start: model.start(3.0, 2.0),
         periods,
@@ -84,7 +84,7 @@ fn row(side: u32, people: usize) -> Result<(), Box<dyn std::error::Error>> {
         ..Options::default()
     };
     let clock = Instant::now();
-    let run = record(&leg(2), &options)?;
+    let run = record(&segment(2), &options)?;
     let alone = clock.elapsed().as_secs_f64() / 2.0;
     let steps = run.end.steps as f64 / 2.0;
     let periods = ((0.5 / alone) as u64).clamp(1, 400);

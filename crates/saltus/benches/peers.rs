@@ -11,7 +11,7 @@
 use std::io::Write;
 use std::time::Instant;
 
-use saltus::hybrid::{Leg, Method, Options, record};
+use saltus::hybrid::{Method, Options, Segment, record};
 use saltus::model::{Inertia, Model, PreparedPlate, Setup};
 use saltus::study::{Control, Pass, Sweep, sweep};
 
@@ -50,7 +50,7 @@ fn label(inertia: Inertia, method: Method) -> Outcome<(Vec<f64>, f64)> {
     let mut setup = Setup::dias_del_prado(zeta, ratio);
     setup.inertia = inertia;
     let model = setup.model()?;
-    let leg = Leg {
+    let segment = Segment {
         system: model.system().clone(),
         start: model.start(START.0, START.1),
         periods,
@@ -59,7 +59,7 @@ fn label(inertia: Inertia, method: Method) -> Outcome<(Vec<f64>, f64)> {
         method,
         ..Options::default()
     };
-    let end = record(&leg, &options)?.end;
+    let end = record(&segment, &options)?.end;
     let steps = end.steps as f64 / periods as f64;
     Ok((observed(&model, &end.point.x), steps))
 }

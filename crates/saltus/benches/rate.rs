@@ -3,7 +3,7 @@
 
 use std::time::Instant;
 
-use saltus::hybrid::{Leg, Method, Options, record};
+use saltus::hybrid::{Method, Options, Segment, record};
 use saltus::model::{Model, ModelError, PreparedPlate, Setup};
 use saltus::study::{Control, Pass, Sweep, sweep};
 
@@ -48,14 +48,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     // Accuracy: 20 periods at zeta 0.45, Omega 0.9, against a far tighter run.
     let precise = Setup::dias_del_prado(0.45, 0.9).model()?;
-    let leg = Leg {
+    let segment = Segment {
         system: precise.system().clone(),
         start: precise.start(3.0, 2.0),
         periods: 20,
     };
     let run = |method| {
         record(
-            &leg,
+            &segment,
             &Options {
                 method,
                 ..Options::default()

@@ -19,11 +19,12 @@ use std::error::Error;
 use std::fmt;
 use std::sync::Arc;
 
-use saltus::hybrid::{Leg, Point, Status, record};
+use saltus::hybrid::{Point, Segment, Status, record};
 use saltus::model::{Model, PreparedPlate, Setup};
 use saltus::orbits::{MotionKind, NewtonOptions, find_orbit};
 use saltus::study::{
-    Control, Grid, Search, Settled, StudyError, growth, map, place, settle, stroboscopic,
+    Control, Grid, Search, Settled, StudyError, lyapunov_of_states, map, place, settle,
+    stroboscopic,
 };
 
 /// Periods of the judge's transient, and of each exponent.
@@ -207,7 +208,7 @@ fn judge(
         .map(|((model, _), settled)| (model.clone(), settled.end.clone()))
         .collect();
     let after = settle(&on, LONG, KEPT, control)?;
-    let exponents = growth(&on, 1, LONG, control)?;
+    let exponents = lyapunov_of_states(&on, 1, LONG, control)?;
     for (k, &i) in open.iter().enumerate() {
         let group = k * COPIES..(k + 1) * COPIES;
         let ends = before[group.clone()].iter().chain(&after[group.clone()]);
@@ -250,12 +251,12 @@ fn cycle(model: &Model, settled: &Settled, control: &Control) -> Option<(Name, S
     };
     let near = (1..=z.len() / 2 - 1).filter(|n| back(n) <= NEAR);
     for n in near {
-        let leg = Leg {
+        let segment = Segment {
             system: model.system().clone(),
             start: settled.end.clone(),
             periods: n as u64,
         };
-        let way = record(&leg, &control.options).ok()?;
+        let way = record(&segment, &control.options).ok()?;
         let places: Vec<_> = std::iter::once(&settled.end)
             .chain(&way.samples)
             .take(n)
@@ -289,7 +290,7 @@ fn cycle(model: &Model, settled: &Settled, control: &Control) -> Option<(Name, S
 }
 
 /// The name of motions that end on no cycle.
-fn by_exponents(copies: &[saltus::study::Growth]) -> (Name, String) {
+fn by_exponents(copies: &[saltus::study::LyapunovRun]) -> (Name, String) {
     let text: Vec<String> = copies
         .iter()
         .map(|copy| {
@@ -300,13 +301,13 @@ fn by_exponents(copies: &[saltus::study::Growth]) -> (Name, String) {
             )
         })
         .collect();
-    let each = |is: &dyn Fn(&saltus::study::Growth) -> bool| copies.iter().all(is);
-    let chaos = |copy: &saltus::study::Growth| {
+    let each = |is: &dyn Fn(&saltus::study::LyapunovRun) -> bool| copies.iter().all(is);
+    let chaos = |copy: &saltus::study::LyapunovRun| {
         let mean = copy.spectrum.estimate()[0];
         mean.per_iterate > 5.0 * mean.standard_error && mean.per_iterate * LONG as f64 > 50.0
     };
     // chaos would leave some 1e-3 in a record of this length
-    let torus = |copy: &saltus::study::Growth| {
+    let torus = |copy: &saltus::study::LyapunovRun| {
         let weighted = copy.spectrum.weighted()[0];
         weighted.mean.abs() < 1e-6 && weighted.difference < 1e-6
     };

@@ -13,7 +13,7 @@
 
 use saltus::model::Setup;
 use saltus::orbits::Exponent;
-use saltus::study::{Control, Measurement, StudyError, growth, lyapunov, settle};
+use saltus::study::{Control, Measurement, StudyError, lyapunov, lyapunov_of_states, settle};
 
 /// Omega/omega_h, zeta_h and z/eta at the start: bands that mix slowly, bands that do not, and one band.
 const CASES: [(f64, f64, f64); 6] = [
@@ -80,7 +80,7 @@ fn long_run(setup: &Setup, z: f64) -> Result<(f64, f64), StudyError> {
         .into_iter()
         .map(|s| (model.clone(), s.end))
         .collect();
-    let found = growth(&on, 1, 12_000, &control)?;
+    let found = lyapunov_of_states(&on, 1, 12_000, &control)?;
     let values: Vec<f64> = found
         .iter()
         .map(|one| one.spectrum.estimate()[0].per_iterate)

@@ -5,7 +5,7 @@ use crate::data::{about, coordinate, name, padded, parameter, values, whole, who
 use crate::plane::Loss;
 use crate::quantities as q;
 use saltus::orbits::Exponent;
-use saltus::study::{Census, Counted, Fraction, Lost, Row, Transient};
+use saltus::study::{AttractorCensus, BasinFraction, CountedAttractor, Lost, Row, Transient};
 use saltus_results::{Dataset, Quantity, Table};
 
 pub(super) fn data(found: &Found) -> Dataset {
@@ -18,7 +18,7 @@ pub(super) fn data(found: &Found) -> Dataset {
     .coordinate(q::JUMPER.numbered(0, found.jumpers()))
     .coordinate(q::ATTRACTOR.numbered(1, found.all.identities.len()))
     .variable(q::STARTS_ASKED.is(whole(starts)))
-    .variable(q::UNSEEN.is(Fraction::unseen(starts.into())))
+    .variable(q::UNSEEN.is(BasinFraction::unseen(starts.into())))
     .variable(q::UNFINISHED.is(whole(found.all.unfinished)))
     .variable(q::PERIODS_RUN.is(whole(found.periods_run)));
     let set = match &found.parameter {
@@ -31,7 +31,7 @@ pub(super) fn data(found: &Found) -> Dataset {
     ranges::loops(ranges::ranges(set, found), found)
 }
 
-const NUMBERS: [Of<Counted, f64>; 8] = [
+const NUMBERS: [Of<CountedAttractor, f64>; 8] = [
     (q::LARGEST_MULTIPLIER, |one| {
         one.entry.attractor.multiplier.unwrap_or(f64::NAN)
     }),
@@ -53,7 +53,7 @@ const NUMBERS: [Of<Counted, f64>; 8] = [
 ];
 
 /// Whole numbers; 0 where there is none.
-const COUNTS: [Of<Counted, u64>; 4] = [
+const COUNTS: [Of<CountedAttractor, u64>; 4] = [
     (q::ATTRACTOR_KIND, code),
     (q::PERIOD, |one| {
         one.entry.attractor.kind.period().unwrap_or(0).into()
@@ -67,7 +67,7 @@ const COUNTS: [Of<Counted, u64>; 4] = [
 ];
 
 /// Numbers of each person.
-type Bodies = fn(&Counted) -> &[f64];
+type Bodies = fn(&CountedAttractor) -> &[f64];
 
 const BODIES: [(Quantity, Bodies); 2] = [
     (q::CONTACT_RATIO, |one| &one.entry.attractor.contact_ratio),
@@ -81,7 +81,7 @@ fn attractors(set: Dataset, found: &Found) -> Dataset {
     let over: Vec<&str> = value.chain(["attractor", "jumper"]).collect();
     let cell = &over[..over.len() - 1];
     let all = found.places();
-    let whole = |of: fn(&Counted) -> u64| wholes(all.iter().map(|one| one.map_or(0, of)));
+    let whole = |of: fn(&CountedAttractor) -> u64| wholes(all.iter().map(|one| one.map_or(0, of)));
     let set = set.variable(q::STARTS.over(cell, whole(|one| one.fraction.count)));
     let set = COUNTS.into_iter().fold(set, |set, (quantity, of)| {
         set.variable(quantity.over(cell, whole(of)).gap(0))
@@ -164,7 +164,7 @@ fn transients(set: Dataset, found: &Found) -> Dataset {
         q::TRANSIENT_SHARE_HIGH,
     ];
     let fractions = all.iter().map(|(_, one)| one.fraction);
-    let fractions: Vec<Fraction> = fractions.collect();
+    let fractions: Vec<BasinFraction> = fractions.collect();
     let ends = |(row, one): &(&Row, &Transient)| row.attractors()[one.to].identity + 1;
     let table = Table::new("transients", &over).titled("value", found.value_name("transient_"));
     let table = without("transient_", table, &["starts", "attractor", "motions"]);
@@ -186,9 +186,9 @@ fn transients(set: Dataset, found: &Found) -> Dataset {
 fn rows(set: Dataset, found: &Found) -> Dataset {
     let value = found.parameter.as_ref().map(name);
     let over: Vec<&str> = value.as_deref().into_iter().collect();
-    let fractions = |of: fn(&Census) -> Fraction| -> Vec<Fraction> {
+    let fractions = |of: fn(&AttractorCensus) -> BasinFraction| -> Vec<BasinFraction> {
         let rows = found.all.rows.iter().map(|row| row.census.as_ref());
-        rows.map(|census| census.map_or_else(|_| Fraction::default(), of))
+        rows.map(|census| census.map_or_else(|_| BasinFraction::default(), of))
             .collect()
     };
     let undecided = [
@@ -219,7 +219,7 @@ fn rows(set: Dataset, found: &Found) -> Dataset {
 pub(super) type Of<T, N> = (Quantity, fn(&T) -> N);
 
 /// Counts of first states, their shares and the ends of their intervals.
-fn shares(set: Dataset, over: &[&str], named: [Quantity; 4], all: &[Fraction]) -> Dataset {
+fn shares(set: Dataset, over: &[&str], named: [Quantity; 4], all: &[BasinFraction]) -> Dataset {
     let [starts, shares, low, high] = named;
     let part = |part: usize| -> Vec<f64> { all.iter().map(|&one| share(one)[part]).collect() };
     set.variable(starts.over(over, wholes(all.iter().map(|one| one.count))))
@@ -235,7 +235,7 @@ pub(super) fn without(prefix: &str, table: Table, titles: &[&str]) -> Table {
 }
 
 /// Part of the first states, and its 95 % confidence interval.
-pub(super) fn share(fraction: Fraction) -> [f64; 3] {
+pub(super) fn share(fraction: BasinFraction) -> [f64; 3] {
     let [low, high] = fraction.interval();
     [fraction.value(), low, high]
 }
@@ -250,13 +250,13 @@ pub(super) fn first_failure(row: &Row) -> Option<Loss> {
 }
 
 /// The largest exponent, where it is what says that an attractor is one.
-pub(super) fn exponent(one: &Counted) -> Option<Exponent> {
+pub(super) fn exponent(one: &CountedAttractor) -> Option<Exponent> {
     let motion = &one.entry.attractor;
     motion.exponent.filter(|_| motion.kind.never_repeats())
 }
 
 /// Place of the kind among the words for it.
-fn code(one: &Counted) -> u64 {
+fn code(one: &CountedAttractor) -> u64 {
     let (words, name) = (q::ATTRACTOR_KIND.words, one.entry.attractor.kind.name());
     let place = words.iter().position(|word| *word == name);
     place.unwrap_or(words.len() - 1) as u64
@@ -264,7 +264,7 @@ fn code(one: &Counted) -> u64 {
 
 impl Found {
     /// Each attractor at each value, where it was met.
-    fn places(&self) -> Vec<Option<&Counted>> {
+    fn places(&self) -> Vec<Option<&CountedAttractor>> {
         let count = self.all.identities.len();
         let mut all = vec![None; count * self.all.rows.len()];
         for (places, row) in all.chunks_mut(count.max(1)).zip(&self.all.rows) {

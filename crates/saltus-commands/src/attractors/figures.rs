@@ -4,7 +4,7 @@ use super::data::share;
 use super::{Found, name};
 use crate::per_jumper::{PANELS, panel_title};
 use crate::words::{base_in_title, capitalized};
-use saltus::study::{Counted, Fraction};
+use saltus::study::{BasinFraction, CountedAttractor};
 use saltus_config::Parameter;
 use saltus_results::{Axis, Cloud, Colour, Curves, Figure, Panel};
 use std::cmp::Reverse;
@@ -38,14 +38,14 @@ struct Series<'a> {
     label: String,
     colour: Colour,
     /// With the places of their values.
-    points: Vec<(usize, &'a Counted)>,
+    points: Vec<(usize, &'a CountedAttractor)>,
 }
 
 impl<'a> Series<'a> {
     /// Those that most first states led to have colours of their own.
     fn all(found: &'a Found) -> Vec<Self> {
         let count = found.all.identities.len();
-        let mut its: Vec<Vec<(usize, &Counted)>> = vec![Vec::new(); count];
+        let mut its: Vec<Vec<(usize, &CountedAttractor)>> = vec![Vec::new(); count];
         for (place, row) in found.all.rows.iter().enumerate() {
             for one in row.attractors() {
                 its[one.identity].push((place, one));
@@ -77,8 +77,9 @@ impl<'a> Series<'a> {
         for &(place, one) in &self.points {
             *counts[place].get_or_insert(0) += one.fraction.count;
         }
-        let share =
-            |count: Option<u64>| count.map_or([f64::NAN; 3], |count| share(Fraction { count, of }));
+        let share = |count: Option<u64>| {
+            count.map_or([f64::NAN; 3], |count| share(BasinFraction { count, of }))
+        };
         counts.into_iter().map(share).collect()
     }
 
@@ -92,7 +93,7 @@ impl<'a> Series<'a> {
 }
 
 /// With its share where it has but one.
-fn label(found: &Found, identity: usize, its: &[(usize, &Counted)]) -> String {
+fn label(found: &Found, identity: usize, its: &[(usize, &CountedAttractor)]) -> String {
     match (its, &found.parameter) {
         ([(_, one)], None) => {
             let [share, low, high] = share(one.fraction).map(|share| 100.0 * share);

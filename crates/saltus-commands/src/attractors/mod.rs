@@ -7,12 +7,14 @@ mod section;
 mod summary;
 
 use crate::answer::{Answer, Take};
-use crate::context::Context;
-use crate::failure::Failure;
+use crate::context::RunContext;
+use crate::failure::CommandError;
 use crate::models::Models;
 use crate::plane::{self, Loss};
 use saltus::orbits::MotionKind;
-use saltus::study::{Control, Counted, Lineages, Row, Search, Starts, Transient};
+use saltus::study::{
+    ContinuedAttractors, Control, CountedAttractor, Row, Search, Starts, Transient,
+};
 use saltus_config::{Parameter, Study};
 use saltus_results::Dataset;
 use std::sync::atomic::Ordering;
@@ -23,11 +25,11 @@ struct Found {
     /// Without a parameter there is one row, whose value means nothing.
     parameter: Option<Parameter>,
     /// Samples of their cycles connect along the parameter.
-    all: Lineages,
+    all: ContinuedAttractors,
     periods_run: u64,
 }
 
-pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
+pub(crate) fn ask(study: &Study, context: &RunContext) -> Result<Box<dyn Answer>, CommandError> {
     plane::need_people(study, "a search for attractors")?;
     let (parameter, values) = question(study)?;
     refuse_if_too_many(study, values.len())?;
@@ -48,8 +50,8 @@ fn followed(
     parameter: Option<&Parameter>,
     values: &[f64],
     control: &Control,
-    context: &Context,
-) -> Result<Lineages, Failure> {
+    context: &RunContext,
+) -> Result<ContinuedAttractors, CommandError> {
     let models = parameter.map(|parameter| Models::new(study, &[parameter], control.options));
     let model_at = |value| match &models {
         Some(models) => models.at(&[value]),
@@ -70,8 +72,8 @@ fn followed(
 pub(super) fn along_the_sweep(
     study: &Study,
     control: &Control,
-    context: &Context,
-) -> Result<(Lineages, f64), Failure> {
+    context: &RunContext,
+) -> Result<(ContinuedAttractors, f64), CommandError> {
     let (parameter, mut values) = question(study)?;
     let own = parameter
         .as_ref()
@@ -79,7 +81,7 @@ pub(super) fn along_the_sweep(
     let (Some(parameter), Some(own)) = (parameter, own) else {
         let message = "--match takes numbers along a parameter, and [attractors] has no sweep";
         let help = "add attractors.parameter, from, to and count, or leave --match out";
-        return Err(Failure::refused(message, help));
+        return Err(CommandError::refused(message, help));
     };
     if !values.contains(&own) {
         values.push(own);
@@ -91,7 +93,7 @@ pub(super) fn along_the_sweep(
 }
 
 /// What changes and its values, the lowest first.
-fn question(study: &Study) -> Result<(Option<Parameter>, Vec<f64>), Failure> {
+fn question(study: &Study) -> Result<(Option<Parameter>, Vec<f64>), CommandError> {
     let Some(axis) = study.attractors.sweep() else {
         return Ok((None, vec![0.0]));
     };
@@ -120,7 +122,7 @@ fn plan(study: &Study) -> (Starts, Search) {
 /// 1 kB of a cycle and up to 5 kB of chaos.
 const MOST: usize = 1_000_000;
 
-fn refuse_if_too_many(study: &Study, values: usize) -> Result<(), Failure> {
+fn refuse_if_too_many(study: &Study, values: usize) -> Result<(), CommandError> {
     let (starts, jumpers) = (study.attractors.starts as usize, study.jumper.len());
     let allowed = MOST / (values * jumpers);
     if starts <= allowed {
@@ -138,11 +140,11 @@ fn refuse_if_too_many(study: &Study, values: usize) -> Result<(), Failure> {
         0 => "a smaller attractors.count is needed".to_owned(),
         _ => format!("attractors.starts = {allowed} at most, or a smaller attractors.count"),
     };
-    Err(Failure::refused(message, help))
+    Err(CommandError::refused(message, help))
 }
 
 /// Nothing is worth keeping if no first state had a long-term motion.
-fn refuse_if_all_lost(rows: &[Row]) -> Result<(), Failure> {
+fn refuse_if_all_lost(rows: &[Row]) -> Result<(), CommandError> {
     let motion = |row: &Row| {
         let census = row.census.as_ref();
         census.is_ok_and(|census| census.lost.count < census.lost.of)
@@ -157,7 +159,7 @@ fn refuse_if_all_lost(rows: &[Row]) -> Result<(), Failure> {
     };
     let reason = first.map_or(String::new(), |lost| Loss::from(lost).reason);
     let what = "no first state was run to its end; the first";
-    Err(Failure::computation(format!("{what}: {reason}")))
+    Err(CommandError::computation(format!("{what}: {reason}")))
 }
 
 impl Answer for Found {
@@ -173,7 +175,7 @@ impl Answer for Found {
         summary::text(self)
     }
 
-    fn draw(&self, take: Take) -> Result<(), Failure> {
+    fn draw(&self, take: Take) -> Result<(), CommandError> {
         take("attractors", &figures::attractors(self))
     }
 }
@@ -194,7 +196,7 @@ impl Found {
     }
 
     /// The attractors of all rows, one after the other.
-    fn met(&self) -> impl Iterator<Item = (&Row, &Counted)> {
+    fn met(&self) -> impl Iterator<Item = (&Row, &CountedAttractor)> {
         let all = self.all.rows.iter();
         all.flat_map(|row| row.attractors().iter().map(move |one| (row, one)))
     }
@@ -234,7 +236,7 @@ impl Found {
 }
 
 /// Kind of an attractor at one value: `2T`, or `chaotic`.
-fn name(one: &Counted) -> String {
+fn name(one: &CountedAttractor) -> String {
     let kind = one.entry.attractor.kind;
     let period = kind.period().map(|n| format!("{n}T"));
     period.unwrap_or_else(|| kind.name().to_owned())

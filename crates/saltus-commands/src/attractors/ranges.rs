@@ -4,10 +4,10 @@ use super::Found;
 use super::data::{Of, without};
 use crate::data::{values, wholes};
 use crate::quantities as q;
-use saltus::study::{Hysteresis, Identity, Range, Turn};
+use saltus::study::{AttractorRange, Hysteresis, Range, RangeEnd};
 use saltus_results::{Dataset, Table};
 
-const RANGES: [Of<Identity, f64>; 6] = [
+const RANGES: [Of<AttractorRange, f64>; 6] = [
     (q::FIRST, |one| one.first),
     (q::LAST, |one| one.last),
     (q::BIRTH_LOW, |one| end(between(one.birth), 0)),
@@ -16,7 +16,7 @@ const RANGES: [Of<Identity, f64>; 6] = [
     (q::DEATH_HIGH, |one| end(between(one.death), 1)),
 ];
 
-const BEYOND: [Of<Identity, usize>; 2] = [
+const BEYOND: [Of<AttractorRange, usize>; 2] = [
     (q::BIRTH_TO, |one| beyond(one.birth)),
     (q::DEATH_TO, |one| beyond(one.death)),
 ];
@@ -101,7 +101,7 @@ fn counts<T>(set: Dataset, over: &str, all: &[T], each: &[Of<T, usize>]) -> Data
     })
 }
 
-fn between(turn: Option<Turn>) -> Option<Range> {
+fn between(turn: Option<RangeEnd>) -> Option<Range> {
     turn.map(|turn| turn.between)
 }
 
@@ -110,6 +110,6 @@ fn end(between: Option<Range>, part: usize) -> f64 {
 }
 
 /// Number of the attractor that a motion jumps to, 0 if that is not known.
-fn beyond(turn: Option<Turn>) -> usize {
+fn beyond(turn: Option<RangeEnd>) -> usize {
     turn.and_then(|turn| turn.to).map_or(0, |to| to + 1)
 }

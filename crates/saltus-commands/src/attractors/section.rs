@@ -1,6 +1,6 @@
 //! Sections whose samples connect along the parameter: where a cycle was met says nothing.
 
-use saltus::study::Lineages;
+use saltus::study::ContinuedAttractors;
 use std::collections::BTreeMap;
 
 /// Samples [z/eta, z'/(eta omega_h)] of each body.
@@ -8,7 +8,7 @@ type Section = Vec<Vec<[f64; 2]>>;
 
 /// Rotates the section of each cycle so that it begins where it is nearest to the same attractor at the last value at
 /// which that was a cycle too; the first one begins with its lowest sample of the first jumper.
-pub(super) fn connect(found: &mut Lineages) {
+pub(super) fn connect(found: &mut ContinuedAttractors) {
     let mut before: BTreeMap<usize, Section> = BTreeMap::new();
     let rows = found.rows.iter_mut().flat_map(|row| &mut row.census);
     for counted in rows.flat_map(|census| &mut census.attractors) {

@@ -3,7 +3,9 @@
 use super::data::{exponent, first_failure, share};
 use super::{Found, name};
 use saltus::orbits::MotionKind;
-use saltus::study::{Census, Counted, Fraction, Hysteresis, Row, Transient, Turn};
+use saltus::study::{
+    AttractorCensus, BasinFraction, CountedAttractor, Hysteresis, RangeEnd, Row, Transient,
+};
 use std::fmt::Write;
 
 /// Lines of a list.
@@ -52,7 +54,7 @@ pub(super) fn text(found: &Found) -> String {
     text + &doubts(found)
 }
 
-fn in_words(one: &Counted) -> String {
+fn in_words(one: &CountedAttractor) -> String {
     let each = |list: &[f64]| {
         let list: Vec<String> = list.iter().map(|x| format!("{x:.3}")).collect();
         list.join(" and ")
@@ -69,13 +71,13 @@ fn in_words(one: &Counted) -> String {
     )
 }
 
-fn percent(fraction: Fraction) -> String {
+fn percent(fraction: BasinFraction) -> String {
     let [value, low, high] = share(fraction).map(|share| 100.0 * share);
     format!("{value:>5.1} % ({low:.1} to {high:.1} %)")
 }
 
 /// What says that it is an attractor.
-fn evidence(one: &Counted) -> String {
+fn evidence(one: &CountedAttractor) -> String {
     if let Some(multiplier) = one.entry.attractor.multiplier {
         return format!("stable, largest multiplier {multiplier:.4}");
     }
@@ -109,7 +111,7 @@ fn in_words_passing(row: &Row, one: &Transient) -> String {
 
 fn range(found: &Found, identity: usize) -> String {
     let range = &found.all.identities[identity];
-    let end = |what: &str, turn: Option<Turn>| {
+    let end = |what: &str, turn: Option<RangeEnd>| {
         turn.map_or(String::new(), |turn| {
             let to = turn.to.map(|to| format!(", beyond on {}", to + 1));
             let [low, high] = turn.between.map(short);
@@ -160,7 +162,7 @@ fn short(x: f64) -> f64 {
 }
 
 /// The largest share of first states that came to no attractor, and where, if there are any.
-fn worst(what: &str, found: &Found, of: fn(&Census) -> Fraction) -> String {
+fn worst(what: &str, found: &Found, of: fn(&AttractorCensus) -> BasinFraction) -> String {
     let all = found.all.rows.iter();
     let all = all.filter_map(|row| Some((of(row.census.as_ref().ok()?).value(), row)));
     let most = all.max_by(|a, b| a.0.total_cmp(&b.0));
@@ -206,7 +208,7 @@ fn doubts(found: &Found) -> String {
     let _ = writeln!(
         text,
         "Intervals are of 95 % confidence; a basin that no first state met has less than {:.1} % of the box.",
-        100.0 * Fraction::unseen(found.study.attractors.starts.into())
+        100.0 * BasinFraction::unseen(found.study.attractors.starts.into())
     );
     text
 }

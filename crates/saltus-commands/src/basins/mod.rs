@@ -6,11 +6,11 @@ mod summary;
 
 use crate::answer::{Answer, Take};
 use crate::attractors;
-use crate::context::Context;
-use crate::failure::Failure;
-use crate::pieces::{self, Divided, Kept};
+use crate::context::RunContext;
+use crate::failure::CommandError;
+use crate::pieces::{self, Divided, PieceFolder};
 use crate::plane::{self, Begun, Cell, Layers, Pixels, Plane};
-use saltus::study::{Catalogue, Entry};
+use saltus::study::{AttractorCatalogue, Entry};
 use saltus_config::Study;
 use saltus_results::Dataset;
 use std::path::Path;
@@ -45,7 +45,7 @@ struct Basins {
 /// What is being found, pixel by pixel.
 struct Finding {
     layers: Layers,
-    catalogue: Catalogue,
+    catalogue: AttractorCatalogue,
     /// In the order of discovery.
     number: Vec<Option<usize>>,
 }
@@ -55,14 +55,14 @@ struct Found {
     study: Study,
     plane: Plane,
     basins: Basins,
-    kept: Kept,
+    kept: PieceFolder,
 }
 
 pub(crate) fn ask(
     study: &Study,
     matched: bool,
-    context: &Context,
-) -> Result<Box<dyn Answer>, Failure> {
+    context: &RunContext,
+) -> Result<Box<dyn Answer>, CommandError> {
     let job = job(study)?;
     let control = context.control(study);
     // Sought first, so that a sweep that cannot be made is refused at once.
@@ -70,7 +70,7 @@ pub(crate) fn ask(
     let sweep = sweep.transpose()?;
     let mut finding = Finding {
         layers: Layers::new(study.jumper.len()),
-        catalogue: Catalogue::default(),
+        catalogue: AttractorCatalogue::default(),
         number: Vec::new(),
     };
     let mut kept = pieces::run(&job, context, &mut |pixel, cell| finding.take(pixel, cell))?;
@@ -91,11 +91,11 @@ pub(crate) fn ask(
 }
 
 /// The basins as work that can be cut.
-pub(crate) fn divided(study: &Study) -> Result<Box<dyn Divided + '_>, Failure> {
+pub(crate) fn divided(study: &Study) -> Result<Box<dyn Divided + '_>, CommandError> {
     Ok(Box::new(job(study)?))
 }
 
-fn job(study: &Study) -> Result<Pixels<'_, impl Fn(f64, f64) -> Begun + Sync>, Failure> {
+fn job(study: &Study) -> Result<Pixels<'_, impl Fn(f64, f64) -> Begun + Sync>, CommandError> {
     let plane = question(study)?;
     let model = study.setup().model()?;
     model.check_step(&study.options())?;
@@ -113,11 +113,11 @@ fn job(study: &Study) -> Result<Pixels<'_, impl Fn(f64, f64) -> Begun + Sync>, F
 }
 
 /// What is asked, or what is missing in the question.
-fn question(study: &Study) -> Result<Plane, Failure> {
+fn question(study: &Study) -> Result<Plane, CommandError> {
     let table = study
         .basins
         .as_ref()
-        .ok_or_else(|| Failure::refused("the study has no [basins] table", EXAMPLE))?;
+        .ok_or_else(|| CommandError::refused("the study has no [basins] table", EXAMPLE))?;
     plane::need_people(study, "a map of basins")?;
     Plane::new(
         &table.x,
@@ -172,7 +172,7 @@ impl Answer for Found {
         summary::text(&self.plane, &self.basins)
     }
 
-    fn draw(&self, take: Take) -> Result<(), Failure> {
+    fn draw(&self, take: Take) -> Result<(), CommandError> {
         let Self { plane, basins, .. } = self;
         take("basins", &figures::basins(plane, basins))?;
         take("layers", &plane::layers_figure(plane, &basins.layers))
@@ -182,7 +182,7 @@ impl Answer for Found {
         self.kept.path()
     }
 
-    fn stored(&mut self) -> Result<(), Failure> {
+    fn stored(&mut self) -> Result<(), CommandError> {
         self.kept.remove()
     }
 }

@@ -2,7 +2,7 @@
 
 use super::question::Question;
 use crate::kinds;
-use saltus::orbits::{Curve, CurvePoint, Family, Limb, Special, follow_curve};
+use saltus::orbits::{BranchWithOrigin, Curve, CurvePoint, ParametricMap, Special, follow_curve};
 
 /// What became of a curve that was asked for.
 pub(super) struct Followed {
@@ -30,9 +30,9 @@ impl Followed {
 
 /// Follows the curves asked for, each until `go_on` says no.
 pub(super) fn follow(
-    family: &impl Family,
+    family: &impl ParametricMap,
     question: &Question,
-    limbs: &[Limb],
+    limbs: &[BranchWithOrigin],
     go_on: &mut dyn FnMut() -> bool,
 ) -> Vec<Followed> {
     let (Some(across), Some((table, _))) = (question.across(), &question.second) else {

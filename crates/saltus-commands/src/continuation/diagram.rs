@@ -1,7 +1,7 @@
 //! A branch as the figure has it: its special points among its points.
 
 use super::view::{Seen, View};
-use saltus::orbits::{End, Limb, Point};
+use saltus::orbits::{BranchWithOrigin, End, Point};
 
 /// At the birth of a branch a multiplier is 1, and which side of the circle it is on is chance.
 const EDGE: f64 = 1e-6;
@@ -15,7 +15,7 @@ pub(super) struct Track {
     pub(super) heights: Vec<Vec<f64>>,
 }
 
-pub(super) fn track(limb: &Limb, view: &View, jumper: usize) -> Track {
+pub(super) fn track(limb: &BranchWithOrigin, view: &View, jumper: usize) -> Track {
     let branch = &limb.branch;
     let period = view.points.first().map_or(0, |seen| seen.section.len());
     let mut track = Track {

@@ -3,7 +3,7 @@
 use super::Found;
 use super::diagram::track;
 use crate::answer::Take;
-use crate::failure::Failure;
+use crate::failure::CommandError;
 use crate::kinds;
 use crate::per_jumper::{PANELS, panel_title};
 use crate::words::{base_in_title, capitalized};
@@ -11,7 +11,7 @@ use saltus::study::SweepRow;
 use saltus_config::Parameter;
 use saltus_results::{Axis, BifurcationSet, Branches, Figure};
 
-pub(super) fn draw(found: &Found, take: Take) -> Result<(), Failure> {
+pub(super) fn draw(found: &Found, take: Take) -> Result<(), CommandError> {
     take("branches", &diagram(found))?;
     if found.curves.iter().any(|curve| curve.outcome.is_ok()) {
         take("curves", &curves(found))?;

@@ -10,8 +10,8 @@ mod summary;
 mod view;
 
 use crate::answer::{Answer, Take};
-use crate::context::Context;
-use crate::failure::Failure;
+use crate::context::RunContext;
+use crate::failure::CommandError;
 use crate::models::Models;
 use curves::Followed;
 pub use origin::Labelled;
@@ -19,7 +19,7 @@ use origin::Origin;
 use question::Question;
 use saltus::hybrid::System;
 use saltus::model::{Model, ModelError};
-use saltus::orbits::{Limb, NewtonOptions, Orbit, Stroboscopic, branches, find_orbit};
+use saltus::orbits::{BranchWithOrigin, NewtonOptions, Orbit, Stroboscopic, branches, find_orbit};
 use saltus::study::{Control, OrbitSearch, Pass, Sweep, SweepRow, orbit_of, stroboscopic, sweep};
 use saltus_config::Study;
 use saltus_results::Dataset;
@@ -36,7 +36,7 @@ struct Found {
     /// At the start.
     model: Model,
     question: Question,
-    limbs: Vec<Limb>,
+    limbs: Vec<BranchWithOrigin>,
     /// The limbs in the paper's units.
     views: Vec<View>,
     curves: Vec<Followed>,
@@ -44,15 +44,15 @@ struct Found {
 }
 
 /// The study at the orbit that the branches begin with.
-pub(crate) fn adopted(origin: &Labelled, study: &Study) -> Result<Study, Failure> {
+pub(crate) fn adopted(origin: &Labelled, study: &Study) -> Result<Study, CommandError> {
     Origin::read(&origin.from, &origin.at)?.adopt(study)
 }
 
 pub(crate) fn ask(
     study: &Study,
     origin: Option<&Labelled>,
-    context: &Context,
-) -> Result<Box<dyn Answer>, Failure> {
+    context: &RunContext,
+) -> Result<Box<dyn Answer>, CommandError> {
     let origin = origin.map(|origin| Origin::read(&origin.from, &origin.at));
     let origin = origin.transpose()?;
     let question = Question::new(study)?;
@@ -63,8 +63,8 @@ fn follow(
     study: &Study,
     question: Question,
     origin: Option<&Origin>,
-    context: &Context,
-) -> Result<Found, Failure> {
+    context: &RunContext,
+) -> Result<Found, CommandError> {
     let control = &context.control(study);
     let models = Models::new(study, &question.parameters(), control.options);
     let model_at = |values: &[f64]| models.at(values);
@@ -78,7 +78,8 @@ fn follow(
     let limbs = context.count("points of branches", &found, || {
         let (options, along) = (question.options(), question.along());
         let first = first(&family, &model, study, &question, origin, control)?;
-        branches(&family, &first, &along, &options, &mut |_| go_on()).map_err(Failure::computation)
+        branches(&family, &first, &along, &options, &mut |_| go_on())
+            .map_err(CommandError::computation)
     });
     context.check()?;
     let limbs = limbs?;
@@ -109,7 +110,7 @@ fn first<F>(
     question: &Question,
     origin: Option<&Origin>,
     control: &Control,
-) -> Result<Orbit, Failure>
+) -> Result<Orbit, CommandError>
 where
     F: Fn(&[f64]) -> Result<System, String> + Sync,
 {
@@ -122,7 +123,7 @@ where
             &NewtonOptions::default(),
         );
         return found.map_err(|error| {
-            Failure::computation(error).advise(
+            CommandError::computation(error).advise(
                 "the study must be near the one of the result: change fewer numbers at once",
             )
         });
@@ -134,7 +135,7 @@ where
         segments: None,
     };
     orbit_of(family, model, values, &start, &search, control).map_err(|error| {
-        Failure::from(error)
+        CommandError::from(error)
             .advise("[start], continue.transient and continue.period say where the search begins")
     })
 }
@@ -144,8 +145,8 @@ fn cloud(
     study: &Study,
     question: &Question,
     models: &Models,
-    context: &Context,
-) -> Result<Vec<SweepRow>, Failure> {
+    context: &RunContext,
+) -> Result<Vec<SweepRow>, CommandError> {
     let control = context.control(study);
     let along = question.along();
     let (low, high) = (along.from.min(along.to), along.from.max(along.to));
@@ -176,7 +177,7 @@ impl Answer for Found {
         summary::text(self)
     }
 
-    fn draw(&self, take: Take) -> Result<(), Failure> {
+    fn draw(&self, take: Take) -> Result<(), CommandError> {
         figures::draw(self, take)
     }
 }

@@ -1,8 +1,8 @@
 //! A labelled orbit of an earlier result, to begin with.
 
-use crate::failure::Failure;
+use crate::failure::CommandError;
 use saltus::model::Model;
-use saltus::orbits::Place;
+use saltus::orbits::MapPoint;
 use saltus::study::{place, point};
 use saltus_config::{Law, Parameter, Study};
 use saltus_results::shown::{self, printable};
@@ -54,7 +54,7 @@ struct SpecialPoint {
 
 impl Document {
     /// The special point `label`; `path` is where the document is.
-    fn special(&self, label: &str, path: &Path) -> Result<&SpecialPoint, Failure> {
+    fn special(&self, label: &str, path: &Path) -> Result<&SpecialPoint, CommandError> {
         let known = self.special_points.as_slice();
         let chosen = known.iter().find(|special| special.label == label);
         chosen.ok_or_else(|| {
@@ -68,15 +68,15 @@ impl Document {
                 printable(label),
                 shown::path(path)
             );
-            Failure::refused(message, help)
+            CommandError::refused(message, help)
         })
     }
 }
 
 impl SpecialPoint {
     /// The orbit in the units of its own model; `None` if a place is only half known.
-    fn places(&self) -> Option<Vec<Place>> {
-        let place = |(modes, x): (&Vec<usize>, &Vec<f64>)| Place {
+    fn places(&self) -> Option<Vec<MapPoint>> {
+        let place = |(modes, x): (&Vec<usize>, &Vec<f64>)| MapPoint {
             modes: modes.clone(),
             x: x.clone(),
         };
@@ -100,16 +100,16 @@ pub(super) struct Origin {
     model: Model,
     parameter: Parameter,
     value: f64,
-    places: Vec<Place>,
+    places: Vec<MapPoint>,
 }
 
 impl Origin {
     /// The orbit `label` of the result in `folder`.
-    pub(super) fn read(folder: &Path, label: &str) -> Result<Self, Failure> {
+    pub(super) fn read(folder: &Path, label: &str) -> Result<Self, CommandError> {
         let path = folder.join(DOCUMENT);
         let text = bytes(&path, LARGEST)?;
         let damaged = |why: &dyn std::fmt::Display| {
-            Failure::work(
+            CommandError::work(
                 format!("`{}` is damaged: {why}", shown::path(&path)),
                 FOLDER,
             )
@@ -122,7 +122,7 @@ impl Origin {
         let parameter = Parameter::parse(&document.parameter)?;
         let study = parameter.apply(&study, chosen.orbit_value)?;
         let model = study.setup().model()?;
-        let fits = |place: &Place| {
+        let fits = |place: &MapPoint| {
             let modes = if study.contact.law == Law::Gap { 3 } else { 2 };
             place.x.len() == model.free_states()
                 && place.modes.len() == study.jumper.len()
@@ -144,7 +144,7 @@ impl Origin {
     }
 
     /// `study` with the parameter of the result where the orbit is, if it has the same states.
-    pub(super) fn adopt(&self, study: &Study) -> Result<Study, Failure> {
+    pub(super) fn adopt(&self, study: &Study) -> Result<Study, CommandError> {
         let (before, now) = (self.study.setup(), study.setup());
         let different = [
             ("plate.modes or plate.basis", {
@@ -158,7 +158,7 @@ impl Origin {
             ),
         ];
         if let Some((what, _)) = different.iter().find(|(_, differs)| *differs) {
-            return Err(Failure::refused(
+            return Err(CommandError::refused(
                 format!("an orbit of the result is none of this study: {what} is not the same"),
                 "a restart may change numbers and ranges, not what the states are",
             ));
@@ -167,8 +167,8 @@ impl Origin {
     }
 
     /// Its places in the units of `model`.
-    pub(super) fn places(&self, model: &Model) -> Vec<Place> {
-        let here = |there: &Place| {
+    pub(super) fn places(&self, model: &Model) -> Vec<MapPoint> {
+        let here = |there: &MapPoint| {
             let point = point(&self.model, there);
             place(model, &model.carry(&self.model, &point))
         };

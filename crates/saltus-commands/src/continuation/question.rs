@@ -1,8 +1,8 @@
 //! What is asked: which parameters, over which ranges, from where.
 
-use crate::failure::Failure;
+use crate::failure::CommandError;
 use crate::plane::need_people;
-use saltus::orbits::{Along, BranchesOptions, ContinuationOptions};
+use saltus::orbits::{BranchesOptions, ContinuationOptions, ParameterRange};
 use saltus_config::{ContinueTable, Parameter, SecondTable, Study};
 
 /// Shown to those whose study has none.
@@ -24,10 +24,10 @@ pub(super) struct Question {
 }
 
 impl Question {
-    pub(super) fn new(study: &Study) -> Result<Self, Failure> {
+    pub(super) fn new(study: &Study) -> Result<Self, CommandError> {
         let table = study.continuation.as_ref();
-        let table =
-            table.ok_or_else(|| Failure::refused("the study has no [continue] table", EXAMPLE))?;
+        let table = table
+            .ok_or_else(|| CommandError::refused("the study has no [continue] table", EXAMPLE))?;
         need_people(study, "a branch of orbits")?;
         let mut start = vec![table.start(study)?];
         let mut second = None;
@@ -57,8 +57,8 @@ impl Question {
     }
 
     /// The range of the branches.
-    pub(super) fn along(&self) -> Along {
-        Along {
+    pub(super) fn along(&self) -> ParameterRange {
+        ParameterRange {
             parameter: self.start.len() - 1,
             from: self.table.from,
             to: self.table.to,
@@ -66,9 +66,9 @@ impl Question {
     }
 
     /// The range of the second parameter.
-    pub(super) fn across(&self) -> Option<Along> {
+    pub(super) fn across(&self) -> Option<ParameterRange> {
         let (table, _) = self.second.as_ref()?;
-        Some(Along {
+        Some(ParameterRange {
             parameter: 0,
             from: table.from,
             to: table.to,

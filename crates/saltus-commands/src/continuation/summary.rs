@@ -3,7 +3,7 @@
 use super::data::period;
 use super::{Followed, Found};
 use crate::kinds;
-use saltus::orbits::{Limb, Special};
+use saltus::orbits::{BranchWithOrigin, Special};
 use std::fmt::Write;
 
 pub(super) fn text(found: &Found) -> String {
@@ -41,7 +41,7 @@ fn count(number: usize, one: &str, many: &str) -> String {
     format!("{number} {}", if number == 1 { one } else { many })
 }
 
-fn branch_line(branch: usize, limb: &Limb) -> String {
+fn branch_line(branch: usize, limb: &BranchWithOrigin) -> String {
     let points = &limb.branch.points;
     let values = || points.iter().map(|point| point.parameter);
     let (low, high) = (

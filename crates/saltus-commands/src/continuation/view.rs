@@ -1,7 +1,7 @@
 //! Branches in the paper's units.
 
 use saltus::model::{Model, ModelError, Section};
-use saltus::orbits::{Limb, Multiplier, Orbit};
+use saltus::orbits::{BranchWithOrigin, Multiplier, Orbit};
 use saltus::study::{point, sequence};
 
 /// An orbit as people see it.
@@ -45,7 +45,7 @@ impl Seen {
 
 impl View {
     pub(super) fn new(
-        limb: &Limb,
+        limb: &BranchWithOrigin,
         model_at: impl Fn(&[f64]) -> Result<Model, ModelError>,
     ) -> Result<Self, ModelError> {
         let branch = &limb.branch;

@@ -6,14 +6,14 @@ mod summary;
 mod words;
 
 use crate::answer::{Answer, Take};
-use crate::context::Context;
-use crate::failure::Failure;
+use crate::context::RunContext;
+use crate::failure::CommandError;
 use crate::repeats;
 use crate::status;
 use saltus::hybrid::{Point, Status};
 use saltus::model::Model;
 use saltus::orbits::{Criteria, Recurrence, Running, Verdict, judge};
-use saltus::study::{Control, Growth, Measurement, StudyError, lyapunov, settle, simulate};
+use saltus::study::{Control, LyapunovRun, Measurement, StudyError, lyapunov, settle, simulate};
 use saltus_config::Study;
 use saltus_results::Dataset;
 
@@ -25,13 +25,13 @@ struct Found {
     study: Study,
     model: Model,
     how: Measurement,
-    growth: Growth,
+    growth: LyapunovRun,
     /// The exponents from the first periods of the record, over how many these are.
     convergence: Vec<Running>,
     verdict: Verdict,
 }
 
-pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
+pub(crate) fn ask(study: &Study, context: &RunContext) -> Result<Box<dyn Answer>, CommandError> {
     let model = study.setup().model()?;
     let how = question(study, &model)?;
     let control = context.control(study);
@@ -40,7 +40,7 @@ pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, F
 }
 
 /// What is asked, or why it makes no sense.
-fn question(study: &Study, model: &Model) -> Result<Measurement, Failure> {
+fn question(study: &Study, model: &Model) -> Result<Measurement, CommandError> {
     let (table, states) = (&study.lyapunov, model.free_states());
     let exponents = match table.exponents as usize {
         0 => states,
@@ -63,8 +63,8 @@ fn measure(
     model: Model,
     how: Measurement,
     control: &Control,
-    context: &Context,
-) -> Result<Found, Failure> {
+    context: &RunContext,
+) -> Result<Found, CommandError> {
     let start = model.start(study.start.z, study.start.v);
     let until = how.transient + how.periods;
     let work = || {
@@ -82,7 +82,7 @@ fn measure(
     let (growth, recurrence) = context.follow(total, "periods", &control.done, work)?;
     context.check()?;
     if growth.spectrum.iterates() == 0 {
-        return Err(Failure::computation(format!(
+        return Err(CommandError::computation(format!(
             "the motion ended before an exponent could be measured: {}",
             status::text(&growth.status, None)
         )));
@@ -142,14 +142,14 @@ impl Answer for Found {
         summary::text(self)
     }
 
-    fn draw(&self, take: Take) -> Result<(), Failure> {
+    fn draw(&self, take: Take) -> Result<(), CommandError> {
         take("convergence", &figures::convergence(self))
     }
 
-    fn shortfall(&self) -> Option<Failure> {
+    fn shortfall(&self) -> Option<CommandError> {
         let short = self.growth.status != Status::Completed;
         short.then(|| {
-            Failure::computation(format!(
+            CommandError::computation(format!(
                 "not every replica was run to its end: {}",
                 status::text(&self.growth.status, None)
             ))

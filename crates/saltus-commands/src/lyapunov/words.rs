@@ -1,6 +1,6 @@
 //! The kind of a motion, and how sure that is, for people.
 
-use saltus::orbits::{Doubt, MotionKind, Verdict};
+use saltus::orbits::{MotionKind, UndecidedReason, Verdict};
 
 /// Meaning of the name, or why there is none and what may help.
 pub(super) fn meaning(verdict: &Verdict) -> String {
@@ -18,22 +18,22 @@ pub(super) fn meaning(verdict: &Verdict) -> String {
     text.to_owned()
 }
 
-fn reason(doubt: Doubt) -> &'static str {
+fn reason(doubt: UndecidedReason) -> &'static str {
     match doubt {
-        Doubt::Sign => {
+        UndecidedReason::Sign => {
             "the sign of the largest exponent is not certain; more lyapunov.periods may tell"
         }
-        Doubt::Growth => {
+        UndecidedReason::Growth => {
             "deviations grow, but not yet by more than what leaves an unstable cycle shows; \
              more lyapunov.periods may tell"
         }
-        Doubt::Drift => {
+        UndecidedReason::Drift => {
             "it is still on its way to a cycle or from one; a longer lyapunov.transient may tell"
         }
-        Doubt::NoPeriod => {
+        UndecidedReason::NoPeriod => {
             "deviations die out, but no period up to 64 is seen; a longer lyapunov.transient may tell"
         }
-        Doubt::UnstableCycle => {
+        UndecidedReason::UnstableCycle => {
             "it repeats while deviations grow: an unstable cycle, or a chaotic transient before a \
              stable one; another [start] or a longer lyapunov.transient may tell"
         }

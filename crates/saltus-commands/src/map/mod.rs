@@ -4,10 +4,10 @@ mod figures;
 mod summary;
 
 use crate::answer::{Answer, Take};
-use crate::context::Context;
-use crate::failure::Failure;
+use crate::context::RunContext;
+use crate::failure::CommandError;
 use crate::models::Models;
-use crate::pieces::{self, Divided, Kept};
+use crate::pieces::{self, Divided, PieceFolder};
 use crate::plane::{self, Begun, Cell, Layers, Pixels, Plane};
 use saltus_config::Study;
 use saltus_results::Dataset;
@@ -34,10 +34,10 @@ struct Found {
     study: Study,
     plane: Plane,
     layers: Layers,
-    kept: Kept,
+    kept: PieceFolder,
 }
 
-pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
+pub(crate) fn ask(study: &Study, context: &RunContext) -> Result<Box<dyn Answer>, CommandError> {
     let job = job(study)?;
     let mut layers = Layers::new(study.jumper.len());
     let mut kept = pieces::run(&job, context, &mut |_, cell: Cell| layers.push(&cell))?;
@@ -53,11 +53,11 @@ pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, F
 }
 
 /// The map as work that can be cut.
-pub(crate) fn divided(study: &Study) -> Result<Box<dyn Divided + '_>, Failure> {
+pub(crate) fn divided(study: &Study) -> Result<Box<dyn Divided + '_>, CommandError> {
     Ok(Box::new(job(study)?))
 }
 
-fn job(study: &Study) -> Result<Pixels<'_, impl Fn(f64, f64) -> Begun + Sync>, Failure> {
+fn job(study: &Study) -> Result<Pixels<'_, impl Fn(f64, f64) -> Begun + Sync>, CommandError> {
     let plane = question(study)?;
     let parameters = [&plane.y.parameter, &plane.x.parameter];
     let models = Models::new(study, &parameters, study.options());
@@ -75,11 +75,11 @@ fn job(study: &Study) -> Result<Pixels<'_, impl Fn(f64, f64) -> Begun + Sync>, F
 }
 
 /// What is asked, or what is missing in the question.
-fn question(study: &Study) -> Result<Plane, Failure> {
+fn question(study: &Study) -> Result<Plane, CommandError> {
     let table = study
         .map
         .as_ref()
-        .ok_or_else(|| Failure::refused("the study has no [map] table", EXAMPLE))?;
+        .ok_or_else(|| CommandError::refused("the study has no [map] table", EXAMPLE))?;
     plane::need_people(study, "a map")?;
     Plane::new(
         &table.x,
@@ -104,7 +104,7 @@ impl Answer for Found {
         summary::text(self)
     }
 
-    fn draw(&self, take: Take) -> Result<(), Failure> {
+    fn draw(&self, take: Take) -> Result<(), CommandError> {
         take("map", &figures::periods(&self.plane, &self.layers))?;
         take("layers", &plane::layers_figure(&self.plane, &self.layers))
     }
@@ -113,7 +113,7 @@ impl Answer for Found {
         self.kept.path()
     }
 
-    fn stored(&mut self) -> Result<(), Failure> {
+    fn stored(&mut self) -> Result<(), CommandError> {
         self.kept.remove()
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Found;
 use crate::answer::Take;
-use crate::failure::Failure;
+use crate::failure::CommandError;
 use crate::portrait::{self, Motion};
 use crate::words::setting;
 use saltus_results::{Axis, Figure, Portrait};
@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 /// Width and height (px) of the complex plane.
 const SIDE: f64 = 460.0;
 
-pub(super) fn draw(found: &Found, take: Take) -> Result<(), Failure> {
+pub(super) fn draw(found: &Found, take: Take) -> Result<(), CommandError> {
     let jumpers = found.jumpers();
     if jumpers > 0 {
         let motion = Motion {

@@ -5,8 +5,8 @@ mod figures;
 mod summary;
 
 use crate::answer::{Answer, Take};
-use crate::context::Context;
-use crate::failure::Failure;
+use crate::context::RunContext;
+use crate::failure::CommandError;
 use saltus::model::Model;
 use saltus::orbits::Orbit;
 use saltus::study::{Control, OrbitSearch, Portrait, orbit, portrait};
@@ -21,19 +21,19 @@ struct Found {
     portrait: Portrait,
 }
 
-pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
+pub(crate) fn ask(study: &Study, context: &RunContext) -> Result<Box<dyn Answer>, CommandError> {
     let control = context.control(study);
     let found = context.count("searching", &control.done, || find(study, &control))?;
     context.check()?;
     Ok(Box::new(found))
 }
 
-fn find(study: &Study, control: &Control) -> Result<Found, Failure> {
+fn find(study: &Study, control: &Control) -> Result<Found, CommandError> {
     let model = study.setup().model()?;
     model.check_step(&control.options)?;
     let start = model.start(study.start.z, study.start.v);
     let orbit = orbit(&model, &start, &search(&study.orbit), control).map_err(|error| {
-        Failure::from(error)
+        CommandError::from(error)
             .advise("[start], orbit.transient and orbit.period say where the search begins")
     })?;
     Ok(Found {
@@ -66,7 +66,7 @@ impl Answer for Found {
         summary::text(self)
     }
 
-    fn draw(&self, take: Take) -> Result<(), Failure> {
+    fn draw(&self, take: Take) -> Result<(), CommandError> {
         figures::draw(self, take)
     }
 }

@@ -13,16 +13,16 @@ mod share;
 mod shelf;
 mod work;
 
-use crate::context::Context;
-use crate::failure::Failure;
+use crate::context::RunContext;
+use crate::failure::CommandError;
 use crate::shard::Shard;
 use cut::Cut;
 use saltus::study::Control;
 use saltus_config::Study;
 
 pub(crate) use codec::{Reader, Writer};
-pub use share::Share;
-pub(crate) use shelf::Kept;
+pub use share::ShardReport;
+pub(crate) use shelf::PieceFolder;
 pub(crate) use work::run;
 
 /// Work that can be cut: items 0, 1, ... that do not depend on each other.
@@ -52,7 +52,7 @@ pub(crate) trait Job: Sync {
         items: &[usize],
         control: &Control,
         sink: Sink<Self::Item>,
-    ) -> Result<(), Failure>;
+    ) -> Result<(), CommandError>;
 
     /// Appends an item to the content of its piece.
     fn write(&self, item: &Self::Item, out: &mut Writer);
@@ -62,7 +62,7 @@ pub(crate) trait Job: Sync {
 }
 
 /// Takes items with their numbers.
-pub(crate) type Sink<'a, T> = &'a mut (dyn FnMut(usize, T) -> Result<(), Failure> + Send);
+pub(crate) type Sink<'a, T> = &'a mut (dyn FnMut(usize, T) -> Result<(), CommandError> + Send);
 
 /// Work as those see it who ask for pieces of it.
 pub(crate) trait Divided {
@@ -70,10 +70,14 @@ pub(crate) trait Divided {
     fn pieces(&self) -> u32;
 
     /// Makes what is missing of a shard, in the folder of pieces.
-    fn share(&self, shard: Shard, context: &Context) -> Result<Share, Failure>;
+    fn share(&self, shard: Shard, context: &RunContext) -> Result<ShardReport, CommandError>;
 
     /// Makes these pieces, as the bytes of their files.
-    fn compute(&self, pieces: &[u32], context: &Context) -> Result<Vec<(u32, Vec<u8>)>, Failure>;
+    fn compute(
+        &self,
+        pieces: &[u32],
+        context: &RunContext,
+    ) -> Result<Vec<(u32, Vec<u8>)>, CommandError>;
 }
 
 impl<J: Job> Divided for J {
@@ -81,11 +85,15 @@ impl<J: Job> Divided for J {
         Cut::of(self).pieces()
     }
 
-    fn share(&self, shard: Shard, context: &Context) -> Result<Share, Failure> {
+    fn share(&self, shard: Shard, context: &RunContext) -> Result<ShardReport, CommandError> {
         work::share(self, shard, context)
     }
 
-    fn compute(&self, pieces: &[u32], context: &Context) -> Result<Vec<(u32, Vec<u8>)>, Failure> {
+    fn compute(
+        &self,
+        pieces: &[u32],
+        context: &RunContext,
+    ) -> Result<Vec<(u32, Vec<u8>)>, CommandError> {
         work::compute(self, pieces, context)
     }
 }

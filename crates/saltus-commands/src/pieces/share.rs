@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 /// What a shard has done. As an answer it has no parts: those are in the folder of pieces.
 #[derive(Clone, Debug, Serialize)]
-pub struct Share {
+pub struct ShardReport {
     /// Name of the command.
     pub command: &'static str,
     /// Which shard.
@@ -26,7 +26,7 @@ pub struct Share {
     pub version: &'static str,
 }
 
-impl Told for Share {
+impl Told for ShardReport {
     fn summary(&self) -> String {
         let Self { shard, pieces, .. } = self;
         let (made, found) = (self.made.len(), self.found.len());

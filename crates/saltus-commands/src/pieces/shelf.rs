@@ -3,9 +3,9 @@
 use super::Job;
 use super::cut::Cut;
 use super::fingerprint::Fingerprint;
-use crate::context::{Context, Found, Keep, Place};
-use crate::failure::Failure;
-use crate::shard::{Lack, Shard};
+use crate::context::{Existing, Pieces, PiecesAt, RunContext};
+use crate::failure::CommandError;
+use crate::shard::{DefectivePiece, Shard};
 use saltus_results::pieces::{MANIFEST, pieces_beside};
 use saltus_results::shown::path;
 use saltus_results::{PieceStore, ResultsError, Seal};
@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// Where finished pieces are.
-pub(super) enum Shelf<'a> {
+pub(super) enum PieceStorage<'a> {
     Nowhere,
     Folder(PieceStore),
     /// Contents of whole pieces. Read only: what is made here is used at once.
@@ -22,32 +22,32 @@ pub(super) enum Shelf<'a> {
 
 /// Which pieces are there.
 #[derive(Default)]
-pub(super) struct Stock {
+pub(super) struct PieceInventory {
     pub(super) whole: BTreeSet<u32>,
     /// In the order of their numbers; also those that are no piece of this work.
     pub(super) damaged: BTreeMap<u32, String>,
 }
 
 /// The pieces after the computation.
-pub(crate) struct Kept(Option<PieceStore>);
+pub(crate) struct PieceFolder(Option<PieceStore>);
 
-impl<'a> Shelf<'a> {
-    pub(super) fn open<J: Job>(job: &J, context: &'a Context) -> Result<Self, Failure> {
-        let Some(Keep { place, found }) = &context.keep else {
+impl<'a> PieceStorage<'a> {
+    pub(super) fn open<J: Job>(job: &J, context: &'a RunContext) -> Result<Self, CommandError> {
+        let Some(Pieces { place, found }) = &context.keep else {
             return Ok(Self::Nowhere);
         };
         let fingerprint = Fingerprint::of(job, Cut::of(job));
         Ok(match place {
-            Place::Memory(pieces) => opened(fingerprint.seal(), pieces),
-            Place::Beside(out) => {
+            PiecesAt::Memory(pieces) => opened(fingerprint.seal(), pieces),
+            PiecesAt::Beside(out) => {
                 let dir = pieces_beside(out);
                 Self::Folder(folder(&dir, *found, &fingerprint.names())?)
             }
         })
     }
 
-    pub(super) fn stock(&self, cut: Cut) -> Result<Stock, Failure> {
-        let mut stock = Stock::default();
+    pub(super) fn stock(&self, cut: Cut) -> Result<PieceInventory, CommandError> {
+        let mut stock = PieceInventory::default();
         match self {
             Self::Nowhere => {}
             Self::Folder(store) => {
@@ -63,13 +63,13 @@ impl<'a> Shelf<'a> {
         }
         stock.whole.retain(|&piece| piece < cut.pieces());
         // of two with the same number one may be whole
-        let Stock { whole, damaged } = &mut stock;
+        let PieceInventory { whole, damaged } = &mut stock;
         damaged.retain(|piece, _| !whole.contains(piece));
         Ok(stock)
     }
 
     /// The content of a piece that was whole a moment ago.
-    pub(super) fn read(&self, piece: u32) -> Result<Option<Vec<u8>>, Failure> {
+    pub(super) fn read(&self, piece: u32) -> Result<Option<Vec<u8>>, CommandError> {
         Ok(match self {
             Self::Nowhere => None,
             Self::Folder(store) => store.read(piece)?,
@@ -77,7 +77,7 @@ impl<'a> Shelf<'a> {
         })
     }
 
-    pub(super) fn write(&self, piece: u32, content: &[u8]) -> Result<(), Failure> {
+    pub(super) fn write(&self, piece: u32, content: &[u8]) -> Result<(), CommandError> {
         match self {
             Self::Folder(store) => Ok(store.write(piece, content)?),
             Self::Nowhere | Self::Memory(..) => Ok(()),
@@ -89,7 +89,12 @@ impl<'a> Shelf<'a> {
     }
 
     /// What is wrong with these pieces, and who would make them.
-    pub(super) fn lacks(&self, stock: &Stock, pieces: &[u32], cut: Cut) -> Vec<Lack> {
+    pub(super) fn lacks(
+        &self,
+        stock: &PieceInventory,
+        pieces: &[u32],
+        cut: Cut,
+    ) -> Vec<DefectivePiece> {
         let store = match self {
             Self::Folder(store) => Some(store),
             _ => None,
@@ -99,7 +104,7 @@ impl<'a> Shelf<'a> {
         let lack = |piece| {
             let beyond = (piece >= cut.pieces()).then_some(cut.pieces());
             let problem = stock.damaged.get(&piece);
-            Lack {
+            DefectivePiece {
                 piece,
                 file: store.map(|store| store.file(piece)),
                 problem: problem.map_or("missing", String::as_str).to_owned(),
@@ -110,39 +115,39 @@ impl<'a> Shelf<'a> {
         pieces.iter().copied().map(lack).collect()
     }
 
-    pub(super) fn close(self) -> Kept {
+    pub(super) fn close(self) -> PieceFolder {
         match self {
-            Self::Folder(store) => Kept(Some(store)),
-            Self::Nowhere | Self::Memory(..) => Kept(None),
+            Self::Folder(store) => PieceFolder(Some(store)),
+            Self::Nowhere | Self::Memory(..) => PieceFolder(None),
         }
     }
 }
 
-impl Kept {
+impl PieceFolder {
     /// The folder of pieces, if there is one.
     pub(crate) fn path(&self) -> Option<&Path> {
         self.0.as_ref().map(PieceStore::path)
     }
 
     /// Removes the pieces: the results are there.
-    pub(crate) fn remove(&mut self) -> Result<(), Failure> {
+    pub(crate) fn remove(&mut self) -> Result<(), CommandError> {
         Ok(self.0.take().map_or(Ok(()), PieceStore::remove)?)
     }
 
     /// What to say after an interruption.
-    pub(super) fn suspended(self) -> Failure {
+    pub(super) fn suspended(self) -> CommandError {
         match self.0 {
-            Some(store) => Failure::Suspended {
+            Some(store) => CommandError::Suspended {
                 folder: store.path().to_path_buf(),
                 shard: false,
             },
-            None => Failure::Interrupted,
+            None => CommandError::Interrupted,
         }
     }
 }
 
 /// Pieces in memory, looked at one by one.
-fn opened<'a>(seal: Seal, pieces: &'a [(u32, Vec<u8>)]) -> Shelf<'a> {
+fn opened<'a>(seal: Seal, pieces: &'a [(u32, Vec<u8>)]) -> PieceStorage<'a> {
     let (mut whole, mut damaged) = (BTreeMap::new(), BTreeMap::new());
     for (number, bytes) in pieces {
         match seal.open(*number, bytes) {
@@ -150,27 +155,27 @@ fn opened<'a>(seal: Seal, pieces: &'a [(u32, Vec<u8>)]) -> Shelf<'a> {
             Err(problem) => drop(damaged.insert(*number, problem)),
         }
     }
-    Shelf::Memory(whole, damaged)
+    PieceStorage::Memory(whole, damaged)
 }
 
 /// The folder beside the results. One that is left over is only used if that was asked for, and one that is not there
 /// is only made if something is to be computed.
-fn folder(dir: &Path, found: Found, work: &[(&str, &str)]) -> Result<PieceStore, Failure> {
+fn folder(dir: &Path, found: Existing, work: &[(&str, &str)]) -> Result<PieceStore, CommandError> {
     match found {
-        Found::Merge => PieceStore::open_to_merge(dir, work).map_err(|error| match error {
-            ResultsError::AbsentPieces { .. } => Failure::work(
+        Existing::Merge => PieceStore::open_to_merge(dir, work).map_err(|error| match error {
+            ResultsError::AbsentPieces { .. } => CommandError::work(
                 error,
                 "make them first, with --shard, or compute all in one run without --merge",
             ),
             error => error.into(),
         }),
-        Found::InTheWay if dir.join(MANIFEST).exists() => Err(Failure::work(
+        Existing::Refuse if dir.join(MANIFEST).exists() => Err(CommandError::work(
             format!(
                 "the work folder `{}` of an interrupted run is still there",
                 path(dir)
             ),
             "add --resume to go on with it, or remove it to start anew",
         )),
-        Found::InTheWay | Found::Resume => Ok(PieceStore::open(dir, work)?),
+        Existing::Refuse | Existing::Resume => Ok(PieceStore::open(dir, work)?),
     }
 }

@@ -5,10 +5,10 @@
 
 use super::cut::Cut;
 use super::fingerprint::Fingerprint;
-use super::shelf::{Kept, Shelf, Stock};
-use super::{Job, Reader, Share, Writer};
-use crate::context::{Context, Found, Keep, Place};
-use crate::failure::Failure;
+use super::shelf::{PieceFolder, PieceInventory, PieceStorage};
+use super::{Job, Reader, ShardReport, Writer};
+use crate::context::{Existing, Pieces, PiecesAt, RunContext};
+use crate::failure::CommandError;
 use crate::shard::Shard;
 use saltus::study::Control;
 use saltus_results::pieces::pieces_beside;
@@ -19,17 +19,17 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicU64;
 
 /// Takes complete pieces.
-type Pieces<'a, T> = &'a mut (dyn FnMut(u32, Vec<T>) -> Result<(), Failure> + Send);
+type Gather<'a, T> = &'a mut (dyn FnMut(u32, Vec<T>) -> Result<(), CommandError> + Send);
 
 /// Computes the work, or what is missing of it, and hands it item by item to `gather`, in their order. The pieces
 /// kept until then are there until somebody removes them.
 pub(crate) fn run<J: Job>(
     job: &J,
-    context: &Context,
+    context: &RunContext,
     gather: &mut (dyn FnMut(usize, J::Item) + Send),
-) -> Result<Kept, Failure> {
+) -> Result<PieceFolder, CommandError> {
     let cut = Cut::of(job);
-    let shelf = Shelf::open(job, context)?;
+    let shelf = PieceStorage::open(job, context)?;
     let stock = shelf.stock(cut)?;
     let all = 0..cut.pieces();
     let missing: Vec<u32> = all.filter(|piece| !stock.whole.contains(piece)).collect();
@@ -59,19 +59,23 @@ pub(crate) fn run<J: Job>(
     let kept = shelf.close();
     match computed.and_then(|()| context.check()) {
         Ok(()) => Ok(kept),
-        Err(Failure::Interrupted) => Err(kept.suspended()),
+        Err(CommandError::Interrupted) => Err(kept.suspended()),
         Err(failure) => Err(failure),
     }
 }
 
 /// Makes what is missing of a shard, beside others that make theirs. Nobody puts pieces together here.
-pub(super) fn share<J: Job>(job: &J, shard: Shard, context: &Context) -> Result<Share, Failure> {
-    let Some(Keep {
-        place: Place::Beside(out),
+pub(super) fn share<J: Job>(
+    job: &J,
+    shard: Shard,
+    context: &RunContext,
+) -> Result<ShardReport, CommandError> {
+    let Some(Pieces {
+        place: PiecesAt::Beside(out),
         ..
     }) = &context.keep
     else {
-        return Err(Failure::refused(
+        return Err(CommandError::refused(
             "a shard leaves its pieces beside the folder of results, and there is none",
             "say where the results shall be",
         ));
@@ -80,7 +84,7 @@ pub(super) fn share<J: Job>(job: &J, shard: Shard, context: &Context) -> Result<
     let work = Fingerprint::of(job, cut);
     let store = PieceStore::open_shared(&pieces_beside(out), &work.names())?;
     store.remark(&shard.of().to_string())?;
-    let mut share = Share {
+    let mut share = ShardReport {
         command: job.command(),
         shard,
         pieces: cut.pieces(),
@@ -112,15 +116,15 @@ pub(super) fn share<J: Job>(job: &J, shard: Shard, context: &Context) -> Result<
         })
     })
     .map_err(|failure| match failure {
-        Failure::Interrupted => suspended(store.path()),
+        CommandError::Interrupted => suspended(store.path()),
         other => other,
     })?;
     share.made.sort_unstable();
     Ok(share)
 }
 
-fn suspended(folder: &Path) -> Failure {
-    Failure::Suspended {
+fn suspended(folder: &Path) -> CommandError {
+    CommandError::Suspended {
         folder: folder.to_path_buf(),
         shard: true,
     }
@@ -130,12 +134,12 @@ fn suspended(folder: &Path) -> Failure {
 pub(super) fn compute<J: Job>(
     job: &J,
     pieces: &[u32],
-    context: &Context,
-) -> Result<Vec<(u32, Vec<u8>)>, Failure> {
+    context: &RunContext,
+) -> Result<Vec<(u32, Vec<u8>)>, CommandError> {
     let cut = Cut::of(job);
     let count = cut.pieces();
     if let Some(piece) = pieces.iter().find(|&&piece| piece >= count) {
-        return Err(Failure::refused(
+        return Err(CommandError::refused(
             format!("there is no piece {piece}"),
             format!(
                 "this work has {count} pieces, 0 to {}",
@@ -158,22 +162,22 @@ pub(super) fn compute<J: Job>(
 
 /// Refuses to go on with what is missing if nothing shall be computed; otherwise says what is made again.
 fn complete(
-    shelf: &Shelf,
-    stock: &Stock,
+    shelf: &PieceStorage,
+    stock: &PieceInventory,
     missing: &[u32],
     cut: Cut,
-    context: &Context,
-) -> Result<(), Failure> {
+    context: &RunContext,
+) -> Result<(), CommandError> {
     let merge = context
         .keep
         .as_ref()
-        .is_some_and(|keep| keep.found == Found::Merge);
+        .is_some_and(|keep| keep.found == Existing::Merge);
     let strange = stock.damaged.keys().filter(|&&piece| piece >= cut.pieces());
     let lacking: Vec<u32> = missing.iter().copied().chain(strange.copied()).collect();
     let lacks = shelf.lacks(stock, &lacking, cut);
     if merge && !lacks.is_empty() {
         let pieces = cut.pieces();
-        return Err(Failure::Incomplete { lacks, pieces });
+        return Err(CommandError::Incomplete { lacks, pieces });
     }
     // a run that was killed lacks what it had not come to; that is no news
     let shards = lacks.iter().any(|lack| lack.shard.is_some());
@@ -197,11 +201,11 @@ fn complete(
 fn watched<J: Job>(
     job: &J,
     cut: Cut,
-    context: &Context,
+    context: &RunContext,
     found: impl Iterator<Item = u32>,
     total: usize,
-    work: impl FnOnce(&Control) -> Result<(), Failure>,
-) -> Result<(), Failure> {
+    work: impl FnOnce(&Control) -> Result<(), CommandError>,
+) -> Result<(), CommandError> {
     let (total, unit) = job.effort(total);
     let (done, _) = job.effort(cut.count(found));
     let control = Control {
@@ -216,8 +220,8 @@ fn produce<J: Job>(
     job: &J,
     pieces: &[u32],
     control: &Control,
-    sink: Pieces<J::Item>,
-) -> Result<(), Failure> {
+    sink: Gather<J::Item>,
+) -> Result<(), CommandError> {
     let cut = Cut::of(job);
     for some in pieces.chunks(cut.together(control.threads)) {
         let items: Vec<usize> = some.iter().flat_map(|&piece| cut.of_piece(piece)).collect();
@@ -269,8 +273,8 @@ impl<T> Open<T> {
 struct Queue<'a, J: Job> {
     job: &'a J,
     cut: Cut,
-    shelf: &'a Shelf<'a>,
-    stock: &'a Stock,
+    shelf: &'a PieceStorage<'a>,
+    stock: &'a PieceInventory,
     gather: &'a mut (dyn FnMut(usize, J::Item) + Send),
     /// Complete pieces that wait for one before them.
     waiting: BTreeMap<u32, Vec<J::Item>>,
@@ -280,7 +284,7 @@ struct Queue<'a, J: Job> {
 
 impl<J: Job> Queue<'_, J> {
     /// Takes a piece. It is kept when this returns.
-    fn put(&mut self, piece: u32, items: Vec<J::Item>) -> Result<(), Failure> {
+    fn put(&mut self, piece: u32, items: Vec<J::Item>) -> Result<(), CommandError> {
         if !self.shelf.is_nowhere() {
             self.shelf.write(piece, &content(self.job, &items))?;
         }
@@ -289,7 +293,7 @@ impl<J: Job> Queue<'_, J> {
     }
 
     /// Hands on all pieces whose turn has come.
-    fn hand_on(&mut self) -> Result<(), Failure> {
+    fn hand_on(&mut self) -> Result<(), CommandError> {
         while self.next < self.cut.pieces() {
             let items = match self.waiting.remove(&self.next) {
                 Some(items) => items,
@@ -304,13 +308,13 @@ impl<J: Job> Queue<'_, J> {
         Ok(())
     }
 
-    fn read(&self, piece: u32) -> Result<Vec<J::Item>, Failure> {
+    fn read(&self, piece: u32) -> Result<Vec<J::Item>, CommandError> {
         let bytes = self.shelf.read(piece)?.unwrap_or_default();
         let mut from = Reader::new(&bytes);
         let numbers = self.cut.of_piece(piece);
         let items: Option<Vec<_>> = numbers.map(|n| self.job.read(n, &mut from)).collect();
         items.filter(|_| from.is_empty()).ok_or_else(|| {
-            Failure::work(
+            CommandError::work(
                 format!("piece {piece} was changed during the run, or made by another build"),
                 "remove the pieces and start anew",
             )

@@ -1,7 +1,7 @@
 //! The layers of a plane: one number per pixel and quantity.
 
 use super::{Cell, Loss};
-use crate::failure::Failure;
+use crate::failure::CommandError;
 use crate::quantities as q;
 use saltus::orbits::MotionKind;
 use std::collections::BTreeMap;
@@ -179,23 +179,23 @@ impl Layers {
     }
 
     /// Nothing is worth keeping if there is no motion anywhere.
-    pub(crate) fn refuse_if_all_lost(&self) -> Result<(), Failure> {
+    pub(crate) fn refuse_if_all_lost(&self) -> Result<(), CommandError> {
         if self.status.iter().any(|status| status.is_motion()) {
             return Ok(());
         }
         let Some((_, loss)) = &self.first_loss else {
-            return Err(Failure::computation("the plane has no pixels"));
+            return Err(CommandError::computation("the plane has no pixels"));
         };
         let reason = if loss.impossible {
-            Failure::Refused {
+            CommandError::Refused {
                 message: loss.reason.clone(),
                 help: None,
             }
         } else {
             let what = "no pixel was run to its end; the first";
-            Failure::computation(format!("{what}: {}", loss.reason))
+            CommandError::computation(format!("{what}: {}", loss.reason))
         };
-        Err(Failure::Lost(Box::new(reason)))
+        Err(CommandError::Lost(Box::new(reason)))
     }
 }
 

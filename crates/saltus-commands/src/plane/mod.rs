@@ -5,7 +5,7 @@ mod data;
 mod figure;
 mod layers;
 
-use crate::failure::Failure;
+use crate::failure::CommandError;
 use crate::pieces::{Job, Reader, Sink, Writer};
 use saltus::hybrid::Point;
 use saltus::model::{Model, ModelError};
@@ -37,7 +37,7 @@ pub(super) struct PlaneAxis {
 }
 
 impl PlaneAxis {
-    fn new(table: &AxisTable) -> Result<Self, Failure> {
+    fn new(table: &AxisTable) -> Result<Self, CommandError> {
         Ok(Self {
             parameter: Parameter::parse(&table.parameter)?,
             table: table.clone(),
@@ -55,7 +55,7 @@ impl Plane {
         transient: u32,
         record: u32,
         exponent: u32,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, CommandError> {
         Ok(Self {
             grid: Grid {
                 x: x.values(),
@@ -97,9 +97,9 @@ impl Plane {
 }
 
 /// Refuses a study without people: all layers are of them.
-pub(super) fn need_people(study: &Study, command: &str) -> Result<(), Failure> {
+pub(super) fn need_people(study: &Study, command: &str) -> Result<(), CommandError> {
     if study.jumper.is_empty() {
-        return Err(Failure::refused(
+        return Err(CommandError::refused(
             format!("{command} shows the motion of people, and the study has no [[jumper]]"),
             "add a [[jumper]] table",
         ));
@@ -143,7 +143,12 @@ where
         (items as u64, "pixels")
     }
 
-    fn compute(&self, items: &[usize], control: &Control, sink: Sink<Cell>) -> Result<(), Failure> {
+    fn compute(
+        &self,
+        items: &[usize],
+        control: &Control,
+        sink: Sink<Cell>,
+    ) -> Result<(), CommandError> {
         // counts periods, of which nobody knows how many there will be
         let uncounted = Control {
             done: Arc::default(),

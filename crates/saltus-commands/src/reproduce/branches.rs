@@ -7,10 +7,10 @@ use super::Results;
 use super::data::{details, panels};
 use super::figures::{DAMPING, HEIGHT, points};
 use super::page::Album;
-use crate::failure::Failure;
+use crate::failure::CommandError;
 use crate::kinds;
 
-pub(super) fn write(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
+pub(super) fn write(album: &mut Album<'_>, results: &Results) -> Result<(), CommandError> {
     album.section("Why the transitions are where they are");
     album.say(&[
         "Sweeps see stable motions only. Here the periodic orbits themselves are followed, stable or not, with every \

@@ -17,8 +17,8 @@ use saltus_paper::{
 };
 
 use crate::answer::{Answer, stream_json};
-use crate::context::Context;
-use crate::failure::Failure;
+use crate::context::RunContext;
+use crate::failure::CommandError;
 use crate::store::Store;
 use facts::Report;
 use saltus_config::Study;
@@ -38,7 +38,7 @@ struct Results {
     inertia: InertiaComparison,
 }
 
-pub(crate) fn ask(quick: bool, context: &Context) -> Result<Box<dyn Answer>, Failure> {
+pub(crate) fn ask(quick: bool, context: &RunContext) -> Result<Box<dyn Answer>, CommandError> {
     Ok(Box::new(compute(quick, context)?))
 }
 
@@ -59,7 +59,7 @@ impl Answer for Results {
         stream_json(to, &Report::new(self))
     }
 
-    fn fill(&self, store: &mut dyn Store, name: &str, data: Dataset) -> Result<(), Failure> {
+    fn fill(&self, store: &mut dyn Store, name: &str, data: Dataset) -> Result<(), CommandError> {
         page::write(store, self, &Report::new(self))?;
         store.put_dataset(name, data)
     }
@@ -72,7 +72,7 @@ const DIAGRAMS: Method = Method::Taylor {
     order: 12,
 };
 
-fn compute(quick: bool, context: &Context) -> Result<Results, Failure> {
+fn compute(quick: bool, context: &RunContext) -> Result<Results, CommandError> {
     let effort = if quick {
         Effort::quick()
     } else {
@@ -126,7 +126,7 @@ fn compute(quick: bool, context: &Context) -> Result<Results, Failure> {
 
 /// One stage of the work with its progress.
 struct Step<'a> {
-    context: &'a Context<'a>,
+    context: &'a RunContext<'a>,
     control: &'a Control,
 }
 
@@ -136,7 +136,7 @@ impl Step<'_> {
         what: &str,
         periods: u64,
         work: impl FnOnce() -> Result<T, StudyError>,
-    ) -> Result<T, Failure> {
+    ) -> Result<T, CommandError> {
         self.control
             .done
             .store(0, std::sync::atomic::Ordering::Relaxed);

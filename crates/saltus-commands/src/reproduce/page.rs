@@ -7,7 +7,7 @@ use saltus_results::{Fact, Figure, FigureBlock, Image, Page, Verdict as Badge};
 use super::data::came_to;
 use super::facts::{QUICK, RegimeRow, Report};
 use super::{Results, branches, figures};
-use crate::failure::Failure;
+use crate::failure::CommandError;
 use crate::store::Store;
 
 /// Fills the folder.
@@ -15,7 +15,7 @@ pub(super) fn write(
     folder: &mut dyn Store,
     results: &Results,
     report: &Report,
-) -> Result<(), Failure> {
+) -> Result<(), CommandError> {
     folder.text("facts.md", &report.markdown())?;
     let mut album = Album {
         folder,
@@ -69,7 +69,7 @@ impl Album<'_> {
         figure: &Figure,
         caption: &str,
         data: &[(&str, &str)],
-    ) -> Result<(), Failure> {
+    ) -> Result<(), CommandError> {
         self.folder.figure(name, figure)?;
         let (svg, png) = (format!("{name}.svg"), format!("{name}.png"));
         let mut files = vec![("SVG", svg.as_str()), ("PNG", png.as_str())];
@@ -111,7 +111,7 @@ fn statements(album: &mut Album<'_>, results: &Results, report: &Report) {
     });
 }
 
-fn fig2(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
+fn fig2(album: &mut Album<'_>, results: &Results) -> Result<(), CommandError> {
     album.section("Figure 2: bifurcation diagrams");
     let effort = &results.effort;
     let caption = format!(
@@ -133,7 +133,7 @@ fn fig2(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
     album.show("fig2", &figures::fig2(results, Occupied), &caption, &data)
 }
 
-fn fig3(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
+fn fig3(album: &mut Album<'_>, results: &Results) -> Result<(), CommandError> {
     album.section("Figure 3: the named motions");
     album.say(&[
         "The paper gives the damping ratio of (e), (f) and (g); the others are chosen inside the regime it \
@@ -181,7 +181,11 @@ fn fig3(album: &mut Album<'_>, results: &Results) -> Result<(), Failure> {
     album.show("fig3-forces", &figures::forces(results), caption, &[])
 }
 
-fn ambiguities(album: &mut Album<'_>, results: &Results, report: &Report) -> Result<(), Failure> {
+fn ambiguities(
+    album: &mut Album<'_>,
+    results: &Results,
+    report: &Report,
+) -> Result<(), CommandError> {
     album.section("Where the paper is ambiguous");
     album.say(&[
         "The paper drives the plate at 0.9, 1.0 and 1.1 ω_h without saying which ω_h: that of the body \
@@ -207,7 +211,7 @@ fn ambiguities(album: &mut Album<'_>, results: &Results, report: &Report) -> Res
     Ok(())
 }
 
-fn beyond(album: &mut Album<'_>, results: &Results, report: &Report) -> Result<(), Failure> {
+fn beyond(album: &mut Album<'_>, results: &Results, report: &Report) -> Result<(), CommandError> {
     album.section("Beyond the paper");
     album.say(&[
         "When do feet touch the floor? The paper lets contact begin as soon as the reaction force would be \

@@ -2,13 +2,13 @@
 
 use super::{Found, flights};
 use crate::answer::Take;
-use crate::failure::Failure;
+use crate::failure::CommandError;
 use crate::per_jumper::{PANELS, panel_title};
 use crate::portrait::{self, Motion};
 use crate::words::setting;
 use saltus_results::{Axis, Curves, Figure, History, Panel};
 
-pub(super) fn draw(found: &Found, take: Take) -> Result<(), Failure> {
+pub(super) fn draw(found: &Found, take: Take) -> Result<(), CommandError> {
     if found.jumpers() == 0 {
         return take("section", &amplitudes(found));
     }

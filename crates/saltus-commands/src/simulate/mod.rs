@@ -6,8 +6,8 @@ mod flights;
 mod summary;
 
 use crate::answer::{Answer, Take};
-use crate::context::Context;
-use crate::failure::Failure;
+use crate::context::RunContext;
+use crate::failure::CommandError;
 use crate::status;
 use saltus::hybrid::Status;
 use saltus::model::Model;
@@ -28,11 +28,11 @@ struct Found {
     trajectory: Trajectory,
 }
 
-pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
+pub(crate) fn ask(study: &Study, context: &RunContext) -> Result<Box<dyn Answer>, CommandError> {
     Ok(Box::new(integrate(study, context)?))
 }
 
-fn integrate(study: &Study, context: &Context) -> Result<Found, Failure> {
+fn integrate(study: &Study, context: &RunContext) -> Result<Found, CommandError> {
     let control = context.control(study);
     let model = study.setup().model_with_energy()?;
     let start = model.start(study.start.z, study.start.v);
@@ -64,15 +64,15 @@ impl Answer for Found {
         summary::text(self)
     }
 
-    fn draw(&self, take: Take) -> Result<(), Failure> {
+    fn draw(&self, take: Take) -> Result<(), CommandError> {
         figures::draw(self, take)
     }
 
-    fn shortfall(&self) -> Option<Failure> {
+    fn shortfall(&self) -> Option<CommandError> {
         let end = &self.trajectory.end;
         let short = end.status != Status::Completed;
         short.then(|| {
-            Failure::computation(format!(
+            CommandError::computation(format!(
                 "the run ended in forcing period {} of {}: {}",
                 end.periods + 1,
                 self.study.simulate.periods,

@@ -1,7 +1,7 @@
 //! A sweep that takes each value anew, as work that can be cut.
 
 use super::{PERIODS, Row, measure, periods};
-use crate::failure::Failure;
+use crate::failure::CommandError;
 use crate::models::Models;
 use crate::pieces::{Job, Reader, Sink, Writer};
 use saltus::hybrid::Status;
@@ -75,7 +75,7 @@ impl Job for Restarts<'_> {
         items: &[usize],
         control: &Control,
         sink: Sink<Self::Item>,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), CommandError> {
         let rows = measure(&self.part(items), self.table, &self.models, control)?;
         for (&item, mut row) in items.iter().zip(rows) {
             row.run.pass = self.place(item).0;

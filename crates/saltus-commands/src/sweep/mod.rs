@@ -6,10 +6,10 @@ mod job;
 mod summary;
 
 use crate::answer::{Answer, Take};
-use crate::context::{Context, Found as Existing};
-use crate::failure::Failure;
+use crate::context::{Existing, RunContext};
+use crate::failure::CommandError;
 use crate::models::Models;
-use crate::pieces::{self, Divided, Kept};
+use crate::pieces::{self, Divided, PieceFolder};
 use crate::status;
 use job::Restarts;
 use saltus::hybrid::Status;
@@ -40,7 +40,7 @@ struct Found {
     /// One for each value, pass by pass, in the order of the values.
     rows: Vec<Row>,
     /// The pieces of restarts.
-    kept: Option<Kept>,
+    kept: Option<PieceFolder>,
 }
 
 /// One value of one pass.
@@ -55,7 +55,7 @@ struct Row {
 /// Forcing periods that a label takes, roughly: most motions are on a cycle when their row ends.
 const LABELLING: u64 = 50;
 
-pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, Failure> {
+pub(crate) fn ask(study: &Study, context: &RunContext) -> Result<Box<dyn Answer>, CommandError> {
     let (table, parameter) = question(study)?;
     let models = Models::new(study, &[&parameter], study.options());
     refuse_if_too_many_exponents(table, &models)?;
@@ -68,7 +68,10 @@ pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, F
         }
     };
     if let Err(failure) = refuse_if_all_failed(&rows) {
-        return kept.as_mut().map_or(Ok(()), Kept::remove).and(Err(failure));
+        return kept
+            .as_mut()
+            .map_or(Ok(()), PieceFolder::remove)
+            .and(Err(failure));
     }
     Ok(Box::new(Found {
         study: study.clone(),
@@ -81,7 +84,7 @@ pub(crate) fn ask(study: &Study, context: &Context) -> Result<Box<dyn Answer>, F
 }
 
 /// The sweep as work that can be cut.
-pub(crate) fn divided(study: &Study) -> Result<Box<dyn Divided + '_>, Failure> {
+pub(crate) fn divided(study: &Study) -> Result<Box<dyn Divided + '_>, CommandError> {
     let (table, parameter) = question(study)?;
     if table.direction != Direction::Restarts {
         return Err(indivisible(table));
@@ -93,7 +96,10 @@ pub(crate) fn divided(study: &Study) -> Result<Box<dyn Divided + '_>, Failure> {
 }
 
 /// Each value anew, in pieces.
-fn restarts(job: &Restarts, context: &Context) -> Result<(Vec<Row>, Option<Kept>), Failure> {
+fn restarts(
+    job: &Restarts,
+    context: &RunContext,
+) -> Result<(Vec<Row>, Option<PieceFolder>), CommandError> {
     let mut rows = Vec::new();
     let kept = pieces::run(job, context, &mut |_, row| rows.push(row))?;
     Ok((rows, Some(kept)))
@@ -104,8 +110,8 @@ fn carried(
     sweep: &Sweep,
     table: &SweepTable,
     models: &Models,
-    context: &Context,
-) -> Result<Vec<Row>, Failure> {
+    context: &RunContext,
+) -> Result<Vec<Row>, CommandError> {
     let control = context.control(models.study());
     let total = (sweep.values.len() * sweep.passes.len()) as u64 * periods(table);
     let work = || measure(std::slice::from_ref(sweep), table, models, &control);
@@ -115,17 +121,20 @@ fn carried(
 }
 
 /// Only restarts leave pieces, so there are none to go on with.
-fn refuse_pieces_of_carried_states(table: &SweepTable, context: &Context) -> Result<(), Failure> {
+fn refuse_pieces_of_carried_states(
+    table: &SweepTable,
+    context: &RunContext,
+) -> Result<(), CommandError> {
     match &context.keep {
-        Some(keep) if keep.found != Existing::InTheWay => Err(indivisible(table)),
+        Some(keep) if keep.found != Existing::Refuse => Err(indivisible(table)),
         _ => Ok(()),
     }
 }
 
 /// Work that has no pieces.
-fn indivisible(table: &SweepTable) -> Failure {
+fn indivisible(table: &SweepTable) -> CommandError {
     let direction = serde_json::to_value(table.direction).unwrap_or_default();
-    Failure::refused(
+    CommandError::refused(
         format!(
             "sweep.direction = {direction} goes on from value to value, so it cannot be cut into pieces"
         ),
@@ -134,13 +143,13 @@ fn indivisible(table: &SweepTable) -> Failure {
 }
 
 /// What is asked, or what is missing in the question.
-fn question(study: &Study) -> Result<(&SweepTable, Parameter), Failure> {
+fn question(study: &Study) -> Result<(&SweepTable, Parameter), CommandError> {
     let table = study
         .sweep
         .as_ref()
-        .ok_or_else(|| Failure::refused("the study has no [sweep] table", EXAMPLE))?;
+        .ok_or_else(|| CommandError::refused("the study has no [sweep] table", EXAMPLE))?;
     if study.jumper.is_empty() {
-        return Err(Failure::refused(
+        return Err(CommandError::refused(
             "a sweep shows the motion of people, and the study has no [[jumper]]",
             "add a [[jumper]] table",
         ));
@@ -148,7 +157,7 @@ fn question(study: &Study) -> Result<(&SweepTable, Parameter), Failure> {
     let parameter = Parameter::parse(&table.parameter)?;
     let refused = |what: &str, help: &str| {
         let message = format!("sweep.parameter = {:?}: {what}", table.parameter);
-        Err(Failure::refused(message, help))
+        Err(CommandError::refused(message, help))
     };
     match table.parameter.split('.').next() {
         Some("start") => refused(
@@ -180,7 +189,7 @@ fn plan(study: &Study, table: &SweepTable) -> Sweep {
 }
 
 /// Asked of the first value that has a model: all have the same states.
-fn refuse_if_too_many_exponents(table: &SweepTable, models: &Models) -> Result<(), Failure> {
+fn refuse_if_too_many_exponents(table: &SweepTable, models: &Models) -> Result<(), CommandError> {
     let asked = table.exponents as usize;
     let model = || {
         table
@@ -251,17 +260,17 @@ fn measure(
 }
 
 /// Nothing is worth keeping if no value was run to its end.
-fn refuse_if_all_failed(rows: &[Row]) -> Result<(), Failure> {
+fn refuse_if_all_failed(rows: &[Row]) -> Result<(), CommandError> {
     if rows.iter().any(Row::is_completed) {
         return Ok(());
     }
     match rows.first().map(|row| &row.run.status) {
         Some(Err(error)) => Err(error.clone().into()),
-        Some(Ok(end)) => Err(Failure::computation(format!(
+        Some(Ok(end)) => Err(CommandError::computation(format!(
             "no value of the sweep was run to its end; the first: {}",
             status::text(end, None)
         ))),
-        None => Err(Failure::computation("the sweep has no values")),
+        None => Err(CommandError::computation("the sweep has no values")),
     }
 }
 
@@ -284,7 +293,7 @@ impl Answer for Found {
         summary::text(self)
     }
 
-    fn draw(&self, take: Take) -> Result<(), Failure> {
+    fn draw(&self, take: Take) -> Result<(), CommandError> {
         take("bifurcation", &figures::bifurcation(self))?;
         match self.table.exponents {
             0 => Ok(()),
@@ -293,11 +302,11 @@ impl Answer for Found {
     }
 
     fn pieces(&self) -> Option<&Path> {
-        self.kept.as_ref().and_then(Kept::path)
+        self.kept.as_ref().and_then(PieceFolder::path)
     }
 
-    fn stored(&mut self) -> Result<(), Failure> {
-        self.kept.as_mut().map_or(Ok(()), Kept::remove)
+    fn stored(&mut self) -> Result<(), CommandError> {
+        self.kept.as_mut().map_or(Ok(()), PieceFolder::remove)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Data of answers: whole, every quantity in the help, and the same numbers in arrays, tables and documents. What
 //! writers make of them is tested where those are.
 
-use saltus_commands::{Context, Request};
+use saltus_commands::{Request, RunContext};
 use saltus_config::{Direction, Inertia, Law, Study};
 use saltus_results::{Cells, Dataset, Document, Values};
 
@@ -22,7 +22,7 @@ fn two_people(study: &mut Study) {
 
 /// The data of an answer, which must be whole and described.
 fn data(request: &Request, study: &Study) -> Dataset {
-    let set = request.ask(study, &Context::default()).unwrap().data();
+    let set = request.ask(study, &RunContext::default()).unwrap().data();
     assert!(set.clone().to_bytes().unwrap().starts_with(b"\x89HDF"));
     let document = serde_json::to_value(Document::new(&set)).unwrap();
     assert!(document.as_object().unwrap().len() > 3);

@@ -1,6 +1,6 @@
 //! An answer finds a place: the one that was asked for, one beside it, or one among temporary files.
 
-use saltus_commands::{Context, Destination, Failure, Request};
+use saltus_commands::{CommandError, Destination, Request, RunContext};
 use saltus_config::{Study, paper_template, parse};
 use saltus_results::Manifest;
 use std::fs;
@@ -11,8 +11,11 @@ fn study() -> Study {
 }
 
 /// Tries the place `out`, spoils it, and stores an answer there.
-fn stored(home: &std::path::Path, spoil: impl FnOnce(&std::path::Path)) -> Result<(), Failure> {
-    let (study, context) = (study(), Context::default());
+fn stored(
+    home: &std::path::Path,
+    spoil: impl FnOnce(&std::path::Path),
+) -> Result<(), CommandError> {
+    let (study, context) = (study(), RunContext::default());
     let request = Request::Simulate;
     let destination = Destination {
         request: &request,
@@ -37,7 +40,7 @@ fn an_answer_is_kept_beside_a_folder_that_somebody_made_meanwhile() {
     let failure = outcome.unwrap_err();
     let said = failure.to_string();
     assert!(said.contains("is not empty"), "{said}");
-    let Failure::Elsewhere { folder, .. } = failure else {
+    let CommandError::Elsewhere { folder, .. } = failure else {
         panic!("{said}");
     };
     assert!(said.contains(&folder.display().to_string()), "{said}");
@@ -63,7 +66,7 @@ fn an_answer_is_kept_among_temporary_files_if_nothing_beside_its_place_can_be_wr
         fs::remove_dir(out.parent().unwrap()).unwrap();
         fs::write(out.parent().unwrap(), "").unwrap();
     });
-    let Err(Failure::Elsewhere { folder, reason }) = outcome else {
+    let Err(CommandError::Elsewhere { folder, reason }) = outcome else {
         panic!("it is nowhere");
     };
     assert!(

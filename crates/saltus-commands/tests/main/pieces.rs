@@ -1,14 +1,14 @@
 //! Pieces in memory: handed out as bytes, verified, put together to the bits of one run.
 
 use saltus_commands::{
-    Answer, Context, Failure, Folder, Found, Keep, Place, Request, Shard, about,
+    Answer, CommandError, Existing, Folder, Pieces, PiecesAt, Request, RunContext, Shard, about,
 };
 use saltus_config::Study;
 use saltus_results::pieces::pieces_beside;
 use std::collections::BTreeMap;
 use std::fs;
 
-type Pieces = Vec<(u32, Vec<u8>)>;
+type Bytes = Vec<(u32, Vec<u8>)>;
 
 fn study(sets: &[&str]) -> Study {
     let text = saltus_config::paper_template();
@@ -44,14 +44,14 @@ const REQUESTS: [Request; 3] = [
     Request::Sweep,
 ];
 
-fn context(pieces: &Pieces, found: Found) -> Context<'static> {
-    Context {
+fn context(pieces: &Bytes, found: Existing) -> RunContext<'static> {
+    RunContext {
         threads: 2,
-        keep: Some(Keep {
-            place: Place::Memory(pieces.clone()),
+        keep: Some(Pieces {
+            place: PiecesAt::Memory(pieces.clone()),
             found,
         }),
-        ..Context::default()
+        ..RunContext::default()
     }
 }
 
@@ -63,7 +63,7 @@ fn files(request: &Request, study: &Study, answer: &dyn Answer) -> BTreeMap<Stri
         &out,
         Some(about(request, study)),
         study,
-        &Context::default(),
+        &RunContext::default(),
     )
     .unwrap();
     answer.store(request, &mut folder).unwrap();
@@ -77,16 +77,16 @@ fn files(request: &Request, study: &Study, answer: &dyn Answer) -> BTreeMap<Stri
 }
 
 fn plain(request: &Request, study: &Study) -> BTreeMap<String, Vec<u8>> {
-    let answer = request.ask(study, &Context::default()).unwrap();
+    let answer = request.ask(study, &RunContext::default()).unwrap();
     files(request, study, answer.as_ref())
 }
 
 /// All pieces, the last first, some together.
-fn pieces(request: &Request, study: &Study) -> Pieces {
+fn pieces(request: &Request, study: &Study) -> Bytes {
     let numbers: Vec<u32> = (0..request.pieces(study).unwrap()).rev().collect();
     let some = |numbers: &[u32]| {
         request
-            .compute(study, numbers, &Context::default())
+            .compute(study, numbers, &RunContext::default())
             .unwrap()
     };
     numbers.chunks(2).flat_map(some).collect()
@@ -98,7 +98,7 @@ fn pieces_from_anywhere_come_together_to_the_bits_of_one_run() {
     for request in REQUESTS {
         let pieces = pieces(&request, &study);
         let answer = request
-            .ask(&study, &context(&pieces, Found::Merge))
+            .ask(&study, &context(&pieces, Existing::Merge))
             .unwrap();
         assert!(answer.pieces().is_none());
         assert!(files(&request, &study, answer.as_ref()) == plain(&request, &study));
@@ -111,12 +111,12 @@ fn their_bytes_are_those_of_the_files_of_shards() {
     let home = tempfile::tempdir().unwrap();
     for request in REQUESTS {
         let out = home.path().join(request.name());
-        let context = Context {
-            keep: Some(Keep {
-                place: Place::Beside(out.clone()),
-                found: Found::InTheWay,
+        let context = RunContext {
+            keep: Some(Pieces {
+                place: PiecesAt::Beside(out.clone()),
+                found: Existing::Refuse,
             }),
-            ..Context::default()
+            ..RunContext::default()
         };
         let share = request
             .share(&study, Shard::new(2, 2).unwrap(), &context)
@@ -128,7 +128,7 @@ fn their_bytes_are_those_of_the_files_of_shards() {
                 .eq(&Vec::from_iter((1..share.pieces).step_by(2)))
         );
         let made = request
-            .compute(&study, &share.made, &Context::default())
+            .compute(&study, &share.made, &RunContext::default())
             .unwrap();
         for (number, bytes) in made {
             let file = pieces_beside(&out).join(format!("piece-{number:06}.bin"));
@@ -142,13 +142,13 @@ fn their_bytes_are_those_of_the_files_of_shards() {
 }
 
 /// Pieces of the map of which 0 is missing, 1 truncated, 2 altered, 3 called 4 and of other work, and 9 too many.
-fn spoiled(study: &Study) -> Pieces {
+fn spoiled(study: &Study) -> Bytes {
     let mut pieces = pieces(&Request::Map, study);
     pieces.sort_unstable();
     assert_eq!(pieces.len(), 5);
     let other = self::study(&["jumper.mass=80"]);
     let foreign = Request::Map
-        .compute(&other, &[3], &Context::default())
+        .compute(&other, &[3], &RunContext::default())
         .unwrap();
     let truncated = pieces[1].1.len() / 2;
     pieces[1].1.truncate(truncated);
@@ -165,8 +165,8 @@ fn spoiled(study: &Study) -> Pieces {
 fn every_piece_that_is_not_right_is_named_and_none_of_them_used() {
     let study = study(&[]);
     let pieces = spoiled(&study);
-    let Err(Failure::Incomplete { lacks, pieces: 5 }) =
-        Request::Map.ask(&study, &context(&pieces, Found::Merge))
+    let Err(CommandError::Incomplete { lacks, pieces: 5 }) =
+        Request::Map.ask(&study, &context(&pieces, Existing::Merge))
     else {
         panic!("it shall not merge");
     };
@@ -185,7 +185,7 @@ fn every_piece_that_is_not_right_is_named_and_none_of_them_used() {
     assert_eq!(said.len(), 5);
 
     let answer = Request::Map
-        .ask(&study, &context(&pieces, Found::Resume))
+        .ask(&study, &context(&pieces, Existing::Resume))
         .unwrap();
     assert!(files(&Request::Map, &study, answer.as_ref()) == plain(&Request::Map, &study));
 }
@@ -196,10 +196,10 @@ fn what_has_no_pieces_says_so() {
     for request in [Request::Frequencies, Request::Sweep] {
         assert!(matches!(
             request.pieces(&study),
-            Err(Failure::Refused { .. })
+            Err(CommandError::Refused { .. })
         ));
     }
-    let beyond = Request::Map.compute(&study, &[4, 5], &Context::default());
+    let beyond = Request::Map.compute(&study, &[4, 5], &RunContext::default());
     let said = beyond.unwrap_err();
     assert!(said.to_string().contains("no piece 5"), "{said}");
     assert!(said.help().unwrap().contains("0 to 4"));
@@ -219,7 +219,7 @@ fn values_without_a_model_and_runs_that_fail_come_through_pieces() {
     let study = study(&sets);
     let pieces = pieces(&Request::Sweep, &study);
     let answer = Request::Sweep
-        .ask(&study, &context(&pieces, Found::Merge))
+        .ask(&study, &context(&pieces, Existing::Merge))
         .unwrap();
     let merged = files(&Request::Sweep, &study, answer.as_ref());
     let report = String::from_utf8(merged["sweep.json"].clone()).unwrap();

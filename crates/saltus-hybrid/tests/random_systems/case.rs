@@ -3,7 +3,7 @@
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
-use saltus_hybrid::{BuildError, Leg, Node, System, SystemBuilder, Transition};
+use saltus_hybrid::{BuildError, Node, Segment, System, SystemBuilder, Transition};
 
 /// A sum of terms, each a coefficient times variables: the states by index, then cos and sin of the drive.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -81,11 +81,11 @@ impl Case {
         std::f64::consts::TAU / self.omega
     }
 
-    /// The leg that the engine runs.
-    pub(crate) fn leg(&self) -> Result<Leg, BuildError> {
+    /// The segment that the engine runs.
+    pub(crate) fn segment(&self) -> Result<Segment, BuildError> {
         let system = self.system()?;
         let start = system.point(&self.modes(), &self.start);
-        Ok(Leg {
+        Ok(Segment {
             system,
             start,
             periods: self.periods,

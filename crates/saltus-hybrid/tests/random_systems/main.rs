@@ -13,7 +13,7 @@ mod shrink;
 use std::collections::BTreeMap;
 use std::io::Write;
 
-use saltus_hybrid::{Leg, Method, Options, Recording, Status, SwitchKind, record};
+use saltus_hybrid::{Method, Options, Recording, Segment, Status, SwitchKind, record};
 
 use case::Case;
 use generate::{Kinds, Random};
@@ -55,13 +55,13 @@ enum Verdict {
     LeftOut(&'static str),
 }
 
-fn integrate(leg: &Leg, method: Method) -> Recording {
+fn integrate(segment: &Segment, method: Method) -> Recording {
     let options = Options {
         method,
         max_switches: plain::MOST,
         ..Options::default()
     };
-    record(leg, &options).unwrap()
+    record(segment, &options).unwrap()
 }
 
 const TAYLOR: Method = Method::Taylor {
@@ -102,22 +102,22 @@ fn check(case: &Case) -> Result<Verdict, Failure> {
             }
         }
     }
-    let leg = case.leg().map_err(|error| Failure {
+    let segment = case.segment().map_err(|error| Failure {
         kind: "build",
         found: error.to_string(),
     })?;
-    let tangents = tangents(case, &leg, TAYLOR);
+    let tangents = tangents(case, &segment, TAYLOR);
     let growth = tangents.iter().fold(1.0, |m: f64, c| m.max(c.abs()));
     if growth > 1e3 {
         return Ok(Verdict::LeftOut("errors grow"));
     }
     for (name, method) in [("taylor", TAYLOR), ("rk4", RK4)] {
-        against_plain(name, &integrate(&leg, method), &plain, VALUES * growth)?;
+        against_plain(name, &integrate(&segment, method), &plain, VALUES * growth)?;
     }
     if plain.ending != Ending::Completed {
         return Ok(Verdict::Agree(Some("no end")));
     }
-    against_differences(case, &leg, &tangents, growth).map(Verdict::Agree)
+    against_differences(case, &segment, &tangents, growth).map(Verdict::Agree)
 }
 
 fn against_plain(
@@ -168,17 +168,17 @@ fn against_plain(
 }
 
 /// Columns of the derivative of the end by the start, one after the other.
-fn tangents(case: &Case, leg: &Leg, method: Method) -> Vec<f64> {
+fn tangents(case: &Case, segment: &Segment, method: Method) -> Vec<f64> {
     let n = case.rates.len();
-    let system = leg.system.with_tangents(n).unwrap();
-    let mut start = system.point(&leg.start.modes, &leg.start.x);
+    let system = segment.system.with_tangents(n).unwrap();
+    let mut start = system.point(&segment.start.modes, &segment.start.x);
     let columns = system.columns_mut(&mut start.x);
     (0..n).for_each(|i| columns[i * n + i] = 1.0);
     let end = integrate(
-        &Leg {
+        &Segment {
             system: system.clone(),
             start,
-            periods: leg.periods,
+            periods: segment.periods,
         },
         method,
     );
@@ -186,7 +186,7 @@ fn tangents(case: &Case, leg: &Leg, method: Method) -> Vec<f64> {
 }
 
 /// Differences of the flow by state `i`, ahead and behind; `None` if a neighbour switches otherwise.
-fn differences(leg: &Leg, own: &Recording, i: usize) -> Option<[Vec<f64>; 2]> {
+fn differences(segment: &Segment, own: &Recording, i: usize) -> Option<[Vec<f64>; 2]> {
     let sequence = |run: &Recording| -> Vec<_> {
         switches(run)
             .iter()
@@ -194,9 +194,9 @@ fn differences(leg: &Leg, own: &Recording, i: usize) -> Option<[Vec<f64>; 2]> {
             .collect()
     };
     let difference = |by: f64| {
-        let mut leg = leg.clone();
-        leg.start.x[i] += by;
-        let run = integrate(&leg, TAYLOR);
+        let mut segment = segment.clone();
+        segment.start.x[i] += by;
+        let run = integrate(&segment, TAYLOR);
         let alike = run.end.status == Status::Completed && sequence(&run) == sequence(own);
         let pairs = run.end.point.x.iter().zip(&own.end.point.x);
         alike.then(|| pairs.map(|(a, b)| (a - b) / by).collect())
@@ -207,14 +207,14 @@ fn differences(leg: &Leg, own: &Recording, i: usize) -> Option<[Vec<f64>; 2]> {
 /// Why tangents could not be compared, if so.
 fn against_differences(
     case: &Case,
-    leg: &Leg,
+    segment: &Segment,
     tangents: &[f64],
     growth: f64,
 ) -> Result<Option<&'static str>, Failure> {
     let n = case.rates.len();
-    let own = integrate(leg, TAYLOR);
+    let own = integrate(segment, TAYLOR);
     for (i, column) in tangents.chunks(n).enumerate() {
-        let Some([ahead, behind]) = differences(leg, &own, i) else {
+        let Some([ahead, behind]) = differences(segment, &own, i) else {
             return Ok(Some("a neighbour switches otherwise"));
         };
         let gap = |a: &[f64], b: &[f64]| {
@@ -238,7 +238,7 @@ fn against_differences(
             );
         }
     }
-    let rk4 = self::tangents(case, leg, RK4);
+    let rk4 = self::tangents(case, segment, RK4);
     let gap = tangents
         .iter()
         .zip(&rk4)

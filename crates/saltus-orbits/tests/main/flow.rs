@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
 
 use saltus_hybrid::{Method, Options, testing};
-use saltus_orbits::{Family, Lost, Place, Shot, Stroboscopic};
+use saltus_orbits::{MapPoint, MapRequest, NoImage, ParametricMap, Stroboscopic};
 
 fn options() -> Options {
     Options {
@@ -16,8 +16,8 @@ fn options() -> Options {
     }
 }
 
-fn at(x: f64, v: f64) -> Place {
-    Place {
+fn at(x: f64, v: f64) -> MapPoint {
+    MapPoint {
         modes: vec![0],
         x: vec![x, v],
     }
@@ -31,7 +31,7 @@ fn a_linear_oscillator_has_the_matrix_exponential() {
     for threads in [1, 2] {
         let map = Stroboscopic::new(system, 2, options(), threads, &stop);
         let start = at(0.1, 0.4);
-        let shot = Shot {
+        let shot = MapRequest {
             parameters: &[zeta],
             start: &start,
             derivative: true,
@@ -48,7 +48,7 @@ fn a_linear_oscillator_has_the_matrix_exponential() {
             assert!(difference.abs() < 1e-12, "{row} {column}: {difference}");
         }
         // A plain image is the same to the bit, and tells nothing of the way.
-        let plain = map.images(&[Shot {
+        let plain = map.images(&[MapRequest {
             derivative: false,
             ..shot
         }]);
@@ -67,7 +67,7 @@ fn what_happens_on_the_way_is_told() {
     let start = at(0.0, 1.0);
     let shot = |wall| {
         let parameters = [wall];
-        let shot = Shot {
+        let shot = MapRequest {
             parameters: &parameters,
             start: &start,
             derivative: true,
@@ -98,13 +98,13 @@ fn what_cannot_be_run_is_told_and_disturbs_no_other() {
     let map = Stroboscopic::new(system, 2, options(), 1, &stop);
     let (good, long) = (
         at(0.1, 0.4),
-        Place {
+        MapPoint {
             modes: vec![0],
             x: vec![1.0; 3],
         },
     );
     let nan = at(f64::NAN, 0.0);
-    let shot = |parameters, start, derivative| Shot {
+    let shot = |parameters, start, derivative| MapRequest {
         parameters,
         start,
         derivative,
@@ -119,16 +119,24 @@ fn what_cannot_be_run_is_told_and_disturbs_no_other() {
     assert!(images[0].is_ok() && images[4].is_ok());
     assert_eq!(
         images[1],
-        Err(Lost::NoMap(
+        Err(NoImage::NoMap(
             "zeta = -0.1: a positive number is needed".into()
         ))
     );
-    assert!(matches!(&images[2], Err(Lost::NoMap(_))), "{:?}", images[2]);
-    assert!(matches!(&images[3], Err(Lost::Ended(_))), "{:?}", images[3]);
+    assert!(
+        matches!(&images[2], Err(NoImage::NoMap(_))),
+        "{:?}",
+        images[2]
+    );
+    assert!(
+        matches!(&images[3], Err(NoImage::Ended(_))),
+        "{:?}",
+        images[3]
+    );
     stop.store(true, std::sync::atomic::Ordering::Relaxed);
     assert_eq!(
         map.images(&[shot(&[0.1], &good, true)])[0],
-        Err(Lost::Interrupted)
+        Err(NoImage::Interrupted)
     );
 }
 
@@ -138,7 +146,7 @@ fn differences_give_the_derivative_that_the_flow_has() {
     let system = |p: &[f64]| Ok(testing::forced_oscillator(p[0], 1.0, 1.1, 0.3));
     let map = Stroboscopic::new(system, 2, options(), 1, &stop);
     let (start, parameters) = (at(0.1, 0.4), [0.05]);
-    let shot = |derivative| Shot {
+    let shot = |derivative| MapRequest {
         parameters: &parameters,
         start: &start,
         derivative,

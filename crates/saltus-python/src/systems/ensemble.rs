@@ -7,14 +7,14 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use saltus_hybrid::{
-    End, IntegrateError, Leg, Options, Sample, Switch, SwitchKind, System, Task, integrate_all,
+    End, IntegrateError, Options, Sample, Segment, Switch, SwitchKind, System, Task, integrate_all,
 };
 
 use super::blueprint::Blueprint;
 use super::input::Settings;
 use super::members::Members;
 use crate::error::{of_computation, of_definition};
-use crate::running::{Progress, run as run_beside};
+use crate::running::{Counting, run as run_beside};
 
 /// Length of the runs, and the samples to keep.
 pub(crate) struct Plan {
@@ -70,7 +70,7 @@ pub(crate) fn run(
     members: Members,
     plan: Plan,
     settings: Settings,
-    progress: &Progress<'_>,
+    progress: &Counting<'_>,
 ) -> PyResult<Trajectories> {
     let blueprint = Arc::clone(blueprint);
     let (states, units) = (blueprint.states(), blueprint.units.len());
@@ -219,7 +219,7 @@ impl Member<'_> {
 }
 
 impl Task for Member<'_> {
-    fn begin(&mut self) -> Option<Leg> {
+    fn begin(&mut self) -> Option<Segment> {
         let parameters = self.members.parameters.row(self.index);
         let system = if parameters.is_empty() {
             self.first.clone()
@@ -228,7 +228,7 @@ impl Task for Member<'_> {
         };
         self.period = system.period();
         let modes = self.members.modes.row(self.index);
-        Some(Leg {
+        Some(Segment {
             start: system.point(modes, self.members.starts.row(self.index)),
             system,
             periods: self.plan.transient + self.plan.periods,
@@ -264,7 +264,7 @@ impl Task for Member<'_> {
         }
     }
 
-    fn end(&mut self, end: End) -> Option<Leg> {
+    fn end(&mut self, end: End) -> Option<Segment> {
         let left = self.plan.transient + self.plan.periods - end.periods;
         self.done.fetch_add(left, Ordering::Relaxed);
         self.end = Some(end);

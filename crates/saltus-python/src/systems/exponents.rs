@@ -7,14 +7,14 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use saltus_hybrid::{Method, Options, Sample, Status};
 use saltus_orbits::{
-    Ascent, ClimbError, Climbed, Orbit, Place, Start, Stroboscopic, climb, settled,
+    Ascent, ClimbError, Climbed, MapPoint, Orbit, Start, Stroboscopic, climb, settled,
 };
 
 use super::blueprint::Blueprint;
 use super::input::Settings;
 use super::members::Members;
 use crate::error::{of_computation, of_definition};
-use crate::running::{Progress, run as run_beside};
+use crate::running::{Counting, run as run_beside};
 
 /// Method for orbits: the default of `find_orbit`.
 const ORBITS: Method = Method::Taylor {
@@ -55,7 +55,7 @@ pub(crate) fn run(
     length: (u64, u64),
     count: usize,
     settings: Settings,
-    progress: &Progress<'_>,
+    progress: &Counting<'_>,
 ) -> PyResult<Exponents> {
     let blueprint = Arc::clone(blueprint);
     let how = Ascent {
@@ -110,7 +110,7 @@ fn measure(
     let ended = climbed.into_iter().zip(periods).enumerate();
     let with_cycle = |(index, (climbed, period)): (usize, (Climbed, f64))| {
         let decays = climbed.spectrum.estimate()[0].per_iterate < 0.0;
-        let here = Place {
+        let here = MapPoint {
             modes: climbed.end.point.modes.clone(),
             x: climbed.end.point.x[..states].to_vec(),
         };

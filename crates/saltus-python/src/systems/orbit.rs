@@ -4,13 +4,15 @@ use std::sync::Arc;
 
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
-use saltus_orbits::{Family, Lost, NewtonOptions, Place, Shot, Stroboscopic, find_orbit};
+use saltus_orbits::{
+    MapPoint, MapRequest, NewtonOptions, NoImage, ParametricMap, Stroboscopic, find_orbit,
+};
 
 use super::blueprint::Blueprint;
 use super::input::Settings;
 use super::members::Members;
 use crate::error::of_computation;
-use crate::running::{Progress, run};
+use crate::running::{Counting, run};
 
 /// Period of the orbit, and limits of Newton's method.
 pub(crate) struct Search {
@@ -57,17 +59,17 @@ pub(crate) fn find(
         iterations: search.iterations,
         segments: None,
     };
-    let progress = Progress {
+    let progress = Counting {
         call: None,
         what: "orbit",
         total: None,
     };
     let orbit = run(py, &progress, move |stop, _| {
-        let place = |i: usize| Place {
+        let place = |i: usize| MapPoint {
             modes: members.modes.row(i).to_vec(),
             x: members.starts.row(i).to_vec(),
         };
-        let given: Vec<Place> = (0..members.count).map(place).collect();
+        let given: Vec<MapPoint> = (0..members.count).map(place).collect();
         let parameters = members.parameters.row(0);
         let system_at = |p: &[f64]| blueprint.system(p).map_err(|error| error.to_string());
         let options = settings.options();
@@ -104,13 +106,13 @@ pub(crate) fn find(
 
 /// Places to begin with: those given and, until there are enough, the images of the last.
 fn led_on(
-    map: &impl Family,
+    map: &impl ParametricMap,
     parameters: &[f64],
-    mut places: Vec<Place>,
+    mut places: Vec<MapPoint>,
     period: usize,
-) -> Result<Vec<Place>, Lost> {
+) -> Result<Vec<MapPoint>, NoImage> {
     while let Some(start) = places.last().filter(|_| places.len() < period) {
-        let shot = Shot {
+        let shot = MapRequest {
             parameters,
             start,
             derivative: false,

@@ -14,7 +14,7 @@ use super::lower::lower;
 use super::members::Members;
 use super::orbit::{self, Orbit, Search};
 use crate::error::of_definition;
-use crate::running::{Progress, sound};
+use crate::running::{Counting, sound};
 
 /// A system as a program of the engine. It never changes.
 #[pyclass(frozen, module = "saltus._native")]
@@ -113,7 +113,7 @@ impl Program {
             per_period,
             switches,
         };
-        let progress = Progress {
+        let progress = Counting {
             call: progress,
             what: "integrating",
             total: Some(plan.work(&members)),
@@ -160,7 +160,7 @@ impl Program {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Exponents> {
         let members = self.members(&parameters, &starts, &modes)?;
-        let progress = Progress {
+        let progress = Counting {
             call: progress,
             what: "exponents",
             total: Some((periods + transient).saturating_mul(members.count as u64)),

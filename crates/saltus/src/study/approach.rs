@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use saltus_hybrid::{End, Leg, Point, Sample, Status, Step, System, Task, integrate_stream};
+use saltus_hybrid::{End, Point, Sample, Segment, Status, Step, System, Task, integrate_stream};
 use saltus_orbits::{Closeness, MotionKind, OnCycle, Recurrence, Samples};
 
 use super::attractor::{Arrival, Attractor, Found, Lost};
@@ -110,7 +110,7 @@ impl<F> Task for Pursuit<'_, F>
 where
     F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
 {
-    fn begin(&mut self) -> Option<Leg> {
+    fn begin(&mut self) -> Option<Segment> {
         let (mut model, start) = match (self.start_at)(self.number) {
             Ok(ready) => ready,
             Err(error) => {
@@ -134,7 +134,7 @@ where
             recording: None,
             periods: 0,
         });
-        Some(Leg {
+        Some(Segment {
             system,
             start,
             periods: self.search.transient,
@@ -170,7 +170,7 @@ where
         }
     }
 
-    fn end(&mut self, end: End) -> Option<Leg> {
+    fn end(&mut self, end: End) -> Option<Segment> {
         let motion = self.motion.as_mut()?;
         motion.periods += end.periods;
         if end.status != Status::Completed {
@@ -183,7 +183,7 @@ where
             match motion.conclude(&recording, &end.point, self.search, self.control) {
                 Conclusion::GoOn(start) if !self.extended => {
                     self.extended = true;
-                    return Some(Leg {
+                    return Some(Segment {
                         system: motion.model.system().clone(),
                         start,
                         periods: (PATIENCE * self.search.transient).min(LONGEST),
@@ -203,7 +203,7 @@ where
             motion.recording = Some(Recording::new(&motion.model));
             let whole = self.search.record;
             let periods = motion.settled.map_or(whole, |found| found.period.into());
-            return Some(Leg {
+            return Some(Segment {
                 system: motion.model.system().clone(),
                 start: end.point,
                 periods,

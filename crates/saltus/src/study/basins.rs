@@ -15,11 +15,11 @@ const SAME: f64 = 4e-3;
 
 /// The attractors met so far.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Catalogue {
+pub struct AttractorCatalogue {
     entries: Vec<Entry>,
 }
 
-/// One attractor of a [`Catalogue`].
+/// One attractor of a [`AttractorCatalogue`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// The motion that came closest to it.
@@ -54,7 +54,7 @@ impl Entry {
     }
 }
 
-impl Catalogue {
+impl AttractorCatalogue {
     /// Files a motion under the attractor it is on and gives that one's number, in order of discovery;
     /// `None` for a motion that is undecided. Numbers depend on the order of the calls, so file motions in
     /// the order of their starts.
@@ -186,7 +186,7 @@ mod tests {
 
     #[test]
     fn shifts_of_a_cycle_are_one_attractor() {
-        let mut all = Catalogue::default();
+        let mut all = AttractorCatalogue::default();
         assert_eq!(all.file(0, cycle(&[1.0, 2.0, 4.0], 1e-4)), Some(0));
         assert_eq!(all.file(1, cycle(&[2.0, 4.0, 1.0], 0.0)), Some(0));
         assert_eq!(all.file(2, cycle(&[4.001, 1.0, 2.0], 1e-3)), Some(0));
@@ -205,7 +205,7 @@ mod tests {
 
     #[test]
     fn bands_are_joined_rather_than_told_apart() {
-        let mut all = Catalogue::default();
+        let mut all = AttractorCatalogue::default();
         assert_eq!(all.file(0, band(0.0, 1.0)), Some(0));
         assert_eq!(all.file(1, band(0.1, 0.9)), Some(0));
         assert_eq!(all.file(2, band(0.4, 1.4)), Some(0));
@@ -215,7 +215,7 @@ mod tests {
 
     #[test]
     fn order_is_by_share_and_then_by_the_first_start() {
-        let mut all = Catalogue::default();
+        let mut all = AttractorCatalogue::default();
         let starts = [1.0, 2.0, 3.0, 3.0, 2.0];
         for (start, z) in starts.iter().enumerate() {
             all.file(start, cycle(&[*z], 0.0));

@@ -4,8 +4,8 @@
 //! zero, chaos with an exponent and with motions that were watched and did not leave it.
 
 use super::attractor::{Arrival, Found, Lost};
-use super::basins::{Catalogue, Entry};
-use super::fraction::Fraction;
+use super::basins::{AttractorCatalogue, Entry};
+use super::fraction::BasinFraction;
 use super::survival::Survival;
 use saltus_hybrid::Point;
 use saltus_orbits::MotionKind;
@@ -15,31 +15,31 @@ use crate::model::ModelError;
 
 /// Ends of all starts of a box. The counts add up to the number of starts.
 ///
-/// An attractor that no start met is not in the list; [`Fraction::unseen`] bounds its share.
+/// An attractor that no start met is not in the list; [`BasinFraction::unseen`] bounds its share.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Census {
+pub struct AttractorCensus {
     /// The attractors, those with the most starts first.
-    pub attractors: Vec<Counted>,
+    pub attractors: Vec<CountedAttractor>,
     /// Chaos that looked like an attractor and ends.
     pub transients: Vec<Transient>,
     /// Starts still on their way after eight searches, or on a cycle that is not known to be stable; they count for no
     /// attractor.
-    pub undecided: Fraction,
+    pub undecided: BasinFraction,
     /// Starts whose run ended early.
-    pub lost: Fraction,
+    pub lost: BasinFraction,
     /// Reason why the first of them did.
     pub first_lost: Option<Lost>,
 }
 
-/// One attractor of a [`Census`].
+/// One attractor of a [`AttractorCensus`].
 #[derive(Clone, Debug, PartialEq)]
-pub struct Counted {
+pub struct CountedAttractor {
     /// Its number: the place in the list of a single census, the one that stays along a parameter.
     pub identity: usize,
     /// The motion; `first` and `closest` number the starts of the box, and what was carried here after them.
     pub entry: Entry,
     /// Part of the starts that led to it; 0 for one that was only met from another value of a parameter.
-    pub fraction: Fraction,
+    pub fraction: BasinFraction,
     /// A state on it, to go on from, and its section.
     pub arrival: Arrival,
     /// Of chaos: how long it was watched. None of the motions left it.
@@ -50,10 +50,10 @@ pub struct Counted {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transient {
     /// Part of the starts that were in it when their search was over. They count for the attractor that it ends on.
-    pub fraction: Fraction,
+    pub fraction: BasinFraction,
     /// Record of how long it lasts.
     pub survival: Survival,
-    /// Place in [`Census::attractors`] of the one that most of the watched motions ended on.
+    /// Place in [`AttractorCensus::attractors`] of the one that most of the watched motions ended on.
     pub to: usize,
 }
 
@@ -63,18 +63,18 @@ pub struct Row {
     /// The value of the parameter.
     pub value: f64,
     /// The attractors there, or why there is no model.
-    pub census: Result<Census, ModelError>,
+    pub census: Result<AttractorCensus, ModelError>,
 }
 
 impl Row {
     /// The attractors there; none without a model.
-    pub fn attractors(&self) -> &[Counted] {
+    pub fn attractors(&self) -> &[CountedAttractor] {
         self.census
             .as_ref()
             .map_or(&[], |census| &census.attractors)
     }
 
-    pub(super) fn attractors_mut(&mut self) -> &mut [Counted] {
+    pub(super) fn attractors_mut(&mut self) -> &mut [CountedAttractor] {
         self.census
             .as_mut()
             .map_or(&mut [], |census| &mut census.attractors)
@@ -84,7 +84,7 @@ impl Row {
 /// A census under way.
 #[derive(Default)]
 pub(super) struct Tally {
-    catalogue: Catalogue,
+    catalogue: AttractorCatalogue,
     /// Of each entry's closest motion.
     arrivals: Vec<Arrival>,
     /// Of each entry that is chaotic, once it was watched.
@@ -176,9 +176,9 @@ impl Tally {
 
     /// The census, and the place in it of each number; `None` for one that is no attractor. What was a transient to
     /// `root[number]` is none either, and its starts count for that one.
-    pub(super) fn ranked(mut self, root: &[usize]) -> (Census, Vec<Option<usize>>) {
+    pub(super) fn ranked(mut self, root: &[usize]) -> (AttractorCensus, Vec<Option<usize>>) {
         let of = self.starts;
-        let fraction = |count| Fraction { count, of };
+        let fraction = |count| BasinFraction { count, of };
         let mut transients = Vec::new();
         for (number, &root) in root.iter().enumerate() {
             let count = self.catalogue.entries()[number].count;
@@ -198,7 +198,7 @@ impl Tally {
         let place = |root: &usize| kept.iter().position(|number| number == root);
         let counted = |(identity, &number): (usize, &usize)| {
             let entry = entries[rank[number]].clone();
-            Counted {
+            CountedAttractor {
                 identity,
                 fraction: fraction(entry.count),
                 entry,
@@ -206,7 +206,7 @@ impl Tally {
                 survival: self.survivals[number],
             }
         };
-        let transient = |(fraction, survival, root): (Fraction, Survival, usize)| {
+        let transient = |(fraction, survival, root): (BasinFraction, Survival, usize)| {
             let to = place(&root)?;
             Some(Transient {
                 fraction,
@@ -214,7 +214,7 @@ impl Tally {
                 to,
             })
         };
-        let census = Census {
+        let census = AttractorCensus {
             attractors: kept.iter().enumerate().map(counted).collect(),
             transients: transients.into_iter().filter_map(transient).collect(),
             undecided: fraction(self.undecided),

@@ -6,8 +6,8 @@
 //! shortest one wins. A stable cycle is the motion's own if the motion is on it, or if the distance between them
 //! shrinks as the multipliers say.
 
-use saltus_hybrid::{Leg, Point, record};
-use saltus_orbits::{NewtonOptions, Orbit, Place, Samples, find_orbit};
+use saltus_hybrid::{Point, Segment, record};
+use saltus_orbits::{MapPoint, NewtonOptions, Orbit, Samples, find_orbit};
 
 use super::coordinates::{coordinates, width};
 use super::recording::rounded;
@@ -51,15 +51,15 @@ pub(super) fn cycle(model: &Model, end: &Point, samples: &Samples, control: &Con
         threads: 1,
         ..control.clone()
     };
-    let leg = Leg {
+    let segment = Segment {
         system: model.system().clone(),
         start: end.clone(),
         periods: longest as u64,
     };
-    let Ok(way) = record(&leg, &control.options) else {
+    let Ok(way) = record(&segment, &control.options) else {
         return Near::Nothing;
     };
-    let places: Vec<Place> = std::iter::once(end)
+    let places: Vec<MapPoint> = std::iter::once(end)
         .chain(&way.samples)
         .map(|point| place(model, point))
         .collect();
@@ -112,7 +112,7 @@ struct Distances {
 
 impl Distances {
     fn new(model: &Model, orbit: &Orbit, samples: &Samples) -> Self {
-        let row = |place: &Place| {
+        let row = |place: &MapPoint| {
             let mut row = vec![0.0; width(model)];
             coordinates(model, &point(model, place).x, &mut row);
             row

@@ -1,7 +1,7 @@
 //! Lyapunov exponents of long-term motions, by the tangent flow.
 
 use saltus_hybrid::{Point, Sample, Status};
-use saltus_orbits::{Ascent, Exponent, Orbit, Place, Spectrum, Start, climb, settled};
+use saltus_orbits::{Ascent, Exponent, MapPoint, Orbit, Spectrum, Start, climb, settled};
 
 use super::orbits::stroboscopic;
 use super::{Control, StudyError, settle};
@@ -13,7 +13,7 @@ const ALIGNMENT: u64 = 100;
 
 /// The exponents along a motion, per forcing period.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Growth {
+pub struct LyapunovRun {
     /// The record of growth.
     pub spectrum: Spectrum,
     /// Time integral of the divergence over each recorded period: see [`Model::divergence`].
@@ -31,12 +31,12 @@ pub struct Growth {
 ///
 /// # Errors
 /// [`StudyError`] for options out of range, more columns than states, or when stopped.
-pub fn growth(
+pub fn lyapunov_of_states(
     starts: &[(Model, Point)],
     columns: usize,
     periods: u64,
     control: &Control,
-) -> Result<Vec<Growth>, StudyError> {
+) -> Result<Vec<LyapunovRun>, StudyError> {
     let mut divergences = vec![Vec::new(); starts.len()];
     let watched = starts.iter().zip(&mut divergences);
     let climbs = watched.map(|((model, point), divergences)| Start {
@@ -60,7 +60,7 @@ pub fn growth(
     let told = |(climbed, divergences): (saltus_orbits::Climbed, Vec<f64>)| {
         let recorded = climbed.spectrum.iterates();
         let left_out = divergences.len().saturating_sub(recorded);
-        Growth {
+        LyapunovRun {
             spectrum: climbed.spectrum,
             divergences: divergences[left_out..].to_vec(),
             status: climbed.end.status,
@@ -96,7 +96,7 @@ impl Measurement {
 /// are followed side by side. No two of them have periods in common, and all are on one attractor whatever others there are.
 /// Together they are one long record, which tells what changes more slowly than one piece is long.
 ///
-/// If the motion has come to a cycle, [`Growth::cycle`] is that.
+/// If the motion has come to a cycle, [`LyapunovRun::cycle`] is that.
 ///
 /// # Errors
 /// As [`growth`].
@@ -105,7 +105,7 @@ pub fn lyapunov(
     start: &Point,
     how: &Measurement,
     control: &Control,
-) -> Result<Growth, StudyError> {
+) -> Result<LyapunovRun, StudyError> {
     let (mut starts, mut at) = (Vec::new(), start.clone());
     for replica in 0..how.replicas.max(1) {
         // The columns take as long to turn into their directions in each piece, so records follow each other.
@@ -116,7 +116,7 @@ pub fn lyapunov(
         };
         for settled in settle(&[(model.clone(), at.clone())], periods, 0, control)? {
             if settled.status != Status::Completed {
-                return Ok(Growth {
+                return Ok(LyapunovRun {
                     spectrum: Spectrum::new(model.free_states(), how.exponents)?,
                     divergences: Vec::new(),
                     status: settled.status,
@@ -128,7 +128,7 @@ pub fn lyapunov(
         }
         starts.push((model.clone(), at.clone()));
     }
-    let mut pieces = growth(&starts, how.exponents, how.periods, control)?;
+    let mut pieces = lyapunov_of_states(&starts, how.exponents, how.periods, control)?;
     let Some(mut all) = pieces.pop() else {
         return Err(saltus_hybrid::IntegrateError::Interrupted.into());
     };
@@ -155,14 +155,14 @@ fn cycle(model: &Model, point: &Point, control: &Control) -> Option<Orbit> {
         |_: &[f64]| Ok::<_, ModelError>(model.clone()),
         control,
     );
-    let place = Place {
+    let place = MapPoint {
         modes: point.modes.clone(),
         x: point.x[..model.free_states()].to_vec(),
     };
     settled(&family, &[], &place)
 }
 
-impl Growth {
+impl LyapunovRun {
     /// The exponents: of the cycle, where the motion has come to one, else of the record.
     pub fn exponents(&self) -> Vec<Exponent> {
         match &self.cycle {
@@ -205,7 +205,7 @@ mod tests {
     use crate::model::Setup;
     use crate::physics::ContactLaw;
 
-    fn measured(setup: &Setup, exponents: usize, periods: u64) -> Growth {
+    fn measured(setup: &Setup, exponents: usize, periods: u64) -> LyapunovRun {
         let model = setup.model().expect("the paper's case");
         let how = Measurement {
             exponents,

@@ -18,8 +18,8 @@ use saltus_orbits::MotionKind;
 use std::collections::BTreeMap;
 use std::sync::atomic::Ordering;
 
-use super::census::{Census, Row, Tally};
-use super::lineages::Lineages;
+use super::census::{AttractorCensus, Row, Tally};
+use super::lineages::ContinuedAttractors;
 use super::matching::{Links, Node, Way};
 use super::survival::Survival;
 use super::{Control, Found, Search, Starts, StudyError, attractors};
@@ -36,10 +36,12 @@ pub fn census(
     starts: &Starts,
     search: &Search,
     control: &Control,
-) -> Result<Census, StudyError> {
+) -> Result<AttractorCensus, StudyError> {
     let found = follow(&[0.0], |_| Ok(model.clone()), starts, search, control)?;
     let mut rows = found.rows.into_iter().map(|row| row.census);
-    Ok(rows.next().unwrap_or_else(|| Ok(Census::default()))?)
+    Ok(rows
+        .next()
+        .unwrap_or_else(|| Ok(AttractorCensus::default()))?)
 }
 
 /// The attractors at each of `values` (ascending), matched from value to value.
@@ -55,7 +57,7 @@ pub fn follow<F>(
     starts: &Starts,
     search: &Search,
     control: &Control,
-) -> Result<Lineages, StudyError>
+) -> Result<ContinuedAttractors, StudyError>
 where
     F: Fn(f64) -> Result<Model, ModelError>,
 {
@@ -383,7 +385,7 @@ impl Journey<'_> {
     }
 
     /// Everything in the order of the shares.
-    fn lineages(mut self, unfinished: usize) -> Lineages {
+    fn lineages(mut self, unfinished: usize) -> ContinuedAttractors {
         let (mut rows, mut ranks) = (Vec::new(), Vec::new());
         let places = std::mem::take(&mut self.places);
         for (at, place) in places.into_iter().enumerate() {
@@ -400,6 +402,6 @@ impl Journey<'_> {
         let link =
             |((from, way), to): (&(Node, Way), &Node)| Some(((place(from)?, *way), place(to)?));
         let links = self.links.iter().filter_map(link);
-        Lineages::new(rows, &links.collect(), unfinished)
+        ContinuedAttractors::new(rows, &links.collect(), unfinished)
     }
 }

@@ -4,7 +4,7 @@ use super::Range;
 
 /// `count` of `of` starts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Fraction {
+pub struct BasinFraction {
     /// Number of starts that did.
     pub count: u64,
     /// Number of all starts.
@@ -14,7 +14,7 @@ pub struct Fraction {
 /// Quantile of the normal distribution for 95 % between both tails.
 const QUANTILE: f64 = 1.959_963_984_540_054;
 
-impl Fraction {
+impl BasinFraction {
     /// The share; 0 of none.
     pub fn value(self) -> f64 {
         self.count as f64 / self.of.max(1) as f64
@@ -49,7 +49,7 @@ mod tests {
     #[test]
     fn the_interval_solves_wilsons_equation() {
         for (count, of) in [(81, 263), (15, 148), (0, 20), (1, 29), (29, 29)] {
-            let share = Fraction { count, of };
+            let share = BasinFraction { count, of };
             for end in share.interval() {
                 // (p - end)^2 = z^2 end (1 - end) / n, with p and end between 0 and 1
                 let left = (share.value() - end).powi(2);
@@ -63,7 +63,7 @@ mod tests {
     fn the_interval_is_the_published_one() {
         // Newcombe 1998, Table I, method 3: 81 of 263 and 15 of 148, to its four digits
         for ((count, of), ends) in [((81, 263), [0.2553, 0.3662]), ((15, 148), [0.0624, 0.1605])] {
-            let found = Fraction { count, of }.interval();
+            let found = BasinFraction { count, of }.interval();
             for (found, end) in found.iter().zip(ends) {
                 assert!((found - end).abs() < 5e-5, "{count} of {of}: {found}");
             }
@@ -72,15 +72,15 @@ mod tests {
 
     #[test]
     fn no_starts_say_nothing() {
-        let none = Fraction { count: 0, of: 0 };
+        let none = BasinFraction { count: 0, of: 0 };
         assert_eq!((none.value(), none.interval()), (0.0, [0.0, 1.0]));
-        assert_eq!(Fraction::unseen(0), 1.0);
+        assert_eq!(BasinFraction::unseen(0), 1.0);
     }
 
     #[test]
     fn three_in_n_is_missed_by_one_run_in_twenty() {
         for of in [30_u64, 300, 3000] {
-            let missed = (1.0 - Fraction::unseen(of)).powi(of as i32);
+            let missed = (1.0 - BasinFraction::unseen(of)).powi(of as i32);
             // e^-3 is 0.0498, and (1 - x)^n stays below e^(-xn)
             assert!((0.04..0.05).contains(&missed), "{of}: {missed}");
         }

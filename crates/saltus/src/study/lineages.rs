@@ -14,11 +14,11 @@ use super::matching::{Links, Node, Way, matches};
 
 /// The attractors along a parameter.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Lineages {
+pub struct ContinuedAttractors {
     /// One per value, in their order.
     pub rows: Vec<Row>,
     /// Each attractor by its number.
-    pub identities: Vec<Identity>,
+    pub identities: Vec<AttractorRange>,
     /// Loops of hysteresis, in the order of their first value.
     pub loops: Vec<Hysteresis>,
     /// Motions that were still being carried when it had taken too long; 0 but for a model with a great many
@@ -28,20 +28,20 @@ pub struct Lineages {
 
 /// One attractor along the parameter.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Identity {
+pub struct AttractorRange {
     /// First value at which it was met.
     pub first: f64,
     /// Last value at which it was met.
     pub last: f64,
     /// Its beginning; `None` at the first value with a model.
-    pub birth: Option<Turn>,
+    pub birth: Option<RangeEnd>,
     /// Its end; `None` at the last value with a model.
-    pub death: Option<Turn>,
+    pub death: Option<RangeEnd>,
 }
 
 /// A beginning or an end.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Turn {
+pub struct RangeEnd {
     /// The two values between which it lies.
     pub between: Range,
     /// Number of the attractor that the motion jumps to when carried beyond; `None` if that stayed undecided.
@@ -68,7 +68,7 @@ pub struct Hysteresis {
     pub jump_down: Option<Range>,
 }
 
-impl Lineages {
+impl ContinuedAttractors {
     /// Numbers the attractors of `rows`, by their first value and then by their share there.
     pub(super) fn new(mut rows: Vec<Row>, links: &Links, unfinished: usize) -> Self {
         let previous = matches(&rows, links);
@@ -92,7 +92,7 @@ impl Lineages {
                 .find(|&at| rows[at].census.is_ok())?;
             let [low, high] = [node.0.min(beyond), node.0.max(beyond)].map(|at| rows[at].value);
             let to = links.get(&(node, way)).map(|to| identity_of[to]);
-            Some(Turn {
+            Some(RangeEnd {
                 between: [low, high],
                 to,
             })
@@ -100,8 +100,8 @@ impl Lineages {
         let ends = paths
             .iter()
             .filter_map(|path| Some((*path.first()?, *path.last()?)));
-        let identities: Vec<Identity> = ends
-            .map(|(first, last)| Identity {
+        let identities: Vec<AttractorRange> = ends
+            .map(|(first, last)| AttractorRange {
                 first: rows[first.0].value,
                 last: rows[last.0].value,
                 birth: turn(first, Way::Down),
@@ -118,7 +118,7 @@ impl Lineages {
     }
 
     /// The number of the attractor that `motion`, found at one of the values, is on, by the same test that tells
-    /// motions apart in a [`Catalogue`](super::Catalogue): so that pictures of basins at several values share their
+    /// motions apart in a [`AttractorCatalogue`](super::AttractorCatalogue): so that pictures of basins at several values share their
     /// colours. `None` if it was not met there, or nothing was sought there.
     pub fn identity(&self, value: f64, motion: &Attractor) -> Option<usize> {
         let row = self.rows.iter().find(|row| row.value == value)?;
@@ -129,8 +129,8 @@ impl Lineages {
 }
 
 /// A loop for each pair of which one jumps to the other, as far as both exist.
-fn loops(rows: &[Row], identities: &[Identity], paths: &[Vec<Node>]) -> Vec<Hysteresis> {
-    let jump = |turn: Option<Turn>, to: usize| turn.filter(|turn| turn.to == Some(to));
+fn loops(rows: &[Row], identities: &[AttractorRange], paths: &[Vec<Node>]) -> Vec<Hysteresis> {
+    let jump = |turn: Option<RangeEnd>, to: usize| turn.filter(|turn| turn.to == Some(to));
     let pairs = identities
         .iter()
         .enumerate()
@@ -170,14 +170,14 @@ fn loops(rows: &[Row], identities: &[Identity], paths: &[Vec<Node>]) -> Vec<Hyst
 #[cfg(test)]
 mod tests {
     use super::super::attractor::Arrival;
-    use super::super::basins::Catalogue;
-    use super::super::census::{Census, Counted};
-    use super::super::fraction::Fraction;
+    use super::super::basins::AttractorCatalogue;
+    use super::super::census::{AttractorCensus, CountedAttractor};
+    use super::super::fraction::BasinFraction;
     use super::*;
     use saltus_hybrid::Point;
 
     /// An attractor with these heights, at rest.
-    fn counted(kind: MotionKind, heights: &[f64]) -> Counted {
+    fn counted(kind: MotionKind, heights: &[f64]) -> CountedAttractor {
         let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
         let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let motion = Attractor {
@@ -193,12 +193,12 @@ mod tests {
             exponent: None,
             confidence: None,
         };
-        let mut catalogue = Catalogue::default();
+        let mut catalogue = AttractorCatalogue::default();
         catalogue.file(0, motion);
-        Counted {
+        CountedAttractor {
             identity: 0,
             entry: catalogue.entries()[0].clone(),
-            fraction: Fraction::default(),
+            fraction: BasinFraction::default(),
             arrival: Arrival {
                 point: Point {
                     modes: vec![],
@@ -210,17 +210,17 @@ mod tests {
         }
     }
 
-    fn cycle(heights: &[f64]) -> Counted {
+    fn cycle(heights: &[f64]) -> CountedAttractor {
         counted(MotionKind::Periodic(heights.len() as u32), heights)
     }
 
     /// Rows at 0, 1, ... with these attractors.
-    fn rows(all: Vec<Vec<Counted>>) -> Vec<Row> {
+    fn rows(all: Vec<Vec<CountedAttractor>>) -> Vec<Row> {
         let row = |(at, attractors)| Row {
             value: at as f64,
-            census: Ok(Census {
+            census: Ok(AttractorCensus {
                 attractors,
-                ..Census::default()
+                ..AttractorCensus::default()
             }),
         };
         all.into_iter().enumerate().map(row).collect()
@@ -236,7 +236,7 @@ mod tests {
             .collect()
     }
 
-    fn numbers(found: &Lineages) -> Vec<Vec<usize>> {
+    fn numbers(found: &ContinuedAttractors) -> Vec<Vec<usize>> {
         let of = |row: &Row| {
             row.attractors()
                 .iter()
@@ -256,7 +256,7 @@ mod tests {
             vec![b.clone(), a],
             vec![b],
         ]);
-        let found = Lineages::new(
+        let found = ContinuedAttractors::new(
             rows,
             &links(
                 &[
@@ -286,7 +286,7 @@ mod tests {
             (Some([2.0, 3.0]), Some([0.0, 1.0]))
         );
         assert_eq!(found.identities[0].birth, None);
-        let death = Turn {
+        let death = RangeEnd {
             between: [2.0, 3.0],
             to: Some(1),
         };
@@ -305,7 +305,7 @@ mod tests {
         ];
         let up: Vec<(Node, Node)> = (0..4).map(|at| ((at, 0), (at + 1, 0))).collect();
         let down: Vec<(Node, Node)> = up.iter().map(|&(low, high)| (high, low)).collect();
-        let found = Lineages::new(
+        let found = ContinuedAttractors::new(
             rows(all.map(|one| vec![one]).to_vec()),
             &links(&up, &down),
             0,
@@ -324,7 +324,7 @@ mod tests {
             ]);
             let up = [((0, 0), (1, 0)), ((0, 1), (1, 1))];
             let down = [((1, 0), (0, 0)), ((1, 1), (0, 0))];
-            numbers(&Lineages::new(rows, &links(&up, &down), 0))
+            numbers(&ContinuedAttractors::new(rows, &links(&up, &down), 0))
         };
         assert_eq!(found(1.15), [[0, 1], [0, 1]]);
         // 0.4 away, and 1.4 from the other: less than four times
@@ -343,7 +343,7 @@ mod tests {
         rows[2].census = Err(none.into());
         let up = [((0, 0), (1, 0)), ((1, 0), (3, 0)), ((1, 1), (3, 0))];
         let down = [((3, 0), (1, 0)), ((1, 0), (0, 0)), ((1, 1), (0, 0))];
-        let found = Lineages::new(rows, &links(&up, &down), 0);
+        let found = ContinuedAttractors::new(rows, &links(&up, &down), 0);
         assert_eq!(numbers(&found), [vec![0], vec![0, 1], vec![], vec![0]]);
         assert_eq!(found.loops, []);
         let death = found.identities[1]
@@ -359,7 +359,7 @@ mod tests {
             vec![cycle(&[5.0, 6.0]), cycle(&[0.0])],
         ]);
         let pairs = [((0, 0), (1, 1))];
-        let found = Lineages::new(
+        let found = ContinuedAttractors::new(
             rows,
             &links(&pairs, &pairs.map(|(low, high)| (high, low))),
             0,

@@ -13,7 +13,7 @@
 use saltus_orbits::MotionKind;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::census::{Counted, Row};
+use super::census::{CountedAttractor, Row};
 
 /// An attractor: place of the value, and place in the census there.
 pub(super) type Node = (usize, usize);
@@ -76,7 +76,7 @@ pub(super) fn matches(rows: &[Row], links: &Links) -> BTreeMap<Node, Node> {
 }
 
 /// Whether one can turn into the other without a jump.
-fn may_become(a: &Counted, b: &Counted) -> bool {
+fn may_become(a: &CountedAttractor, b: &CountedAttractor) -> bool {
     match (a.entry.attractor.kind, b.entry.attractor.kind) {
         (MotionKind::Periodic(n), MotionKind::Periodic(m)) => {
             let (short, long) = (n.min(m), n.max(m));
@@ -87,7 +87,7 @@ fn may_become(a: &Counted, b: &Counted) -> bool {
 }
 
 /// Hausdorff distance of two sections, in the largest of all coordinates of all bodies (eta).
-fn distance(a: &Counted, b: &Counted) -> f64 {
+fn distance(a: &CountedAttractor, b: &CountedAttractor) -> f64 {
     let (a, b) = (&a.arrival.section, &b.arrival.section);
     let count = |section: &[Vec<[f64; 2]>]| section.first().map_or(0, Vec::len);
     let gap = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).abs().max((a[1] - b[1]).abs());

@@ -3,9 +3,9 @@
 
 use std::f64::consts::TAU;
 
-use saltus_hybrid::{Leg, Method, Options, Point, Status, System, record};
+use saltus_hybrid::{Method, Options, Point, Segment, Status, System, record};
 use saltus_orbits::{
-    Lost, MAX_PERIOD, NewtonOptions, NotFound, Orbit, Place, Stroboscopic, find_orbit,
+    MAX_PERIOD, MapPoint, NewtonOptions, NoImage, NotFound, Orbit, Stroboscopic, find_orbit,
 };
 
 use super::settle::settle;
@@ -94,7 +94,7 @@ impl OrbitError {
     pub fn is_interrupt(&self) -> bool {
         match self {
             Self::Study(error) => error.is_interrupt(),
-            Self::Newton(NotFound::Lost { reason, .. }) => *reason == Lost::Interrupted,
+            Self::Newton(NotFound::NoImage { reason, .. }) => *reason == NoImage::Interrupted,
             _ => false,
         }
     }
@@ -135,7 +135,7 @@ where
     };
     let way = run(model, start, search, control)?;
     let solve = |period: usize| {
-        let places: Vec<Place> = way[way.len() - 1 - period..way.len() - 1]
+        let places: Vec<MapPoint> = way[way.len() - 1 - period..way.len() - 1]
             .iter()
             .map(|point| place(model, point))
             .collect();
@@ -156,7 +156,7 @@ where
             // Newton's method may lead far away from a motion that is near no cycle.
             Ok(orbit) if is_near(model, &orbit, &way) => return Ok(orbit),
             Ok(_) => {}
-            Err(reason @ NotFound::Lost { .. }) => return Err(reason.into()),
+            Err(reason @ NotFound::NoImage { .. }) => return Err(reason.into()),
             Err(reason) => failure = Some(reason),
         }
     }
@@ -187,12 +187,12 @@ fn run(
         }
         start = settled.end;
     }
-    let leg = Leg {
+    let segment = Segment {
         system: model.system().clone(),
         start: start.clone(),
         periods: search.period.unwrap_or(MAX_PERIOD) as u64,
     };
-    let way = record(&leg, &control.options).map_err(StudyError::from)?;
+    let way = record(&segment, &control.options).map_err(StudyError::from)?;
     if way.end.status != Status::Completed {
         return Err(OrbitError::Ended(way.end.status));
     }
@@ -204,7 +204,7 @@ fn run(
 fn is_near(model: &Model, orbit: &Orbit, way: &[Point]) -> bool {
     let Some(last) = way.last() else { return false };
     let free = model.free_states();
-    let distance = |place: &Place| {
+    let distance = |place: &MapPoint| {
         let pairs = place.x.iter().zip(&last.x[..free]);
         pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
     };
@@ -215,15 +215,15 @@ fn is_near(model: &Model, orbit: &Orbit, way: &[Point]) -> bool {
 }
 
 /// A point of the section as a place of the map.
-pub fn place(model: &Model, point: &Point) -> Place {
-    Place {
+pub fn place(model: &Model, point: &Point) -> MapPoint {
+    MapPoint {
         modes: point.modes.clone(),
         x: point.x[..model.free_states()].to_vec(),
     }
 }
 
 /// A place of the map as a point of the section.
-pub fn point(model: &Model, place: &Place) -> Point {
+pub fn point(model: &Model, place: &MapPoint) -> Point {
     model.system().point(&place.modes, &place.x)
 }
 
@@ -273,7 +273,7 @@ pub fn portrait(model: &Model, orbit: &Orbit, control: &Control) -> Result<Portr
     let mean = |body: usize| {
         way.contact_ratio.iter().map(|r| r[body]).sum::<f64>() / way.contact_ratio.len() as f64
     };
-    let here = |place: &Place| {
+    let here = |place: &MapPoint| {
         let point = point(model, place);
         model.section(&point.modes, &point.x)
     };

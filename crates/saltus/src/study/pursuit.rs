@@ -11,7 +11,7 @@ use saltus_hybrid::Point;
 
 use super::approach::approach;
 use super::attractor::Found;
-use super::doubt::{self, Doubtful};
+use super::classify::{self, Doubtful};
 use super::ensemble::{Control, StudyError};
 use super::search::Search;
 use crate::model::{Model, ModelError};
@@ -44,7 +44,7 @@ where
         sink(number, found)
     })?;
     let mut chaotic = Vec::new();
-    doubt::settle(
+    classify::settle(
         doubtful,
         &start_at,
         search,

@@ -1,7 +1,7 @@
 //! The effect of a motion on floor and people, period by period.
 
-use saltus_hybrid::{End, Leg, Point, Sample, Step, Task, integrate};
-use saltus_orbits::{MotionKind, Orbit, Place};
+use saltus_hybrid::{End, Point, Sample, Segment, Step, Task, integrate};
+use saltus_orbits::{MapPoint, MotionKind, Orbit};
 
 use super::attractor::{Arrival, Attractor, Range};
 use super::peaks::Peaks;
@@ -127,14 +127,14 @@ pub(super) fn around(
     orbit: &Orbit,
     control: &Control,
 ) -> Option<(Attractor, Arrival)> {
-    let here = |place: &Place| {
+    let here = |place: &MapPoint| {
         let x = place.x.iter().copied().map(rounded).collect();
         let modes = place.modes.clone();
-        point(model, &Place { modes, x })
+        point(model, &MapPoint { modes, x })
     };
     let lap = Lap {
         model,
-        leg: Some(Leg {
+        segment: Some(Segment {
             system: model.system().clone(),
             start: here(&orbit.places[0]),
             periods: orbit.period() as u64,
@@ -173,13 +173,13 @@ pub(super) fn around(
 /// Once around a cycle.
 struct Lap<'a> {
     model: &'a Model,
-    leg: Option<Leg>,
+    segment: Option<Segment>,
     recording: Recording,
 }
 
 impl Task for Lap<'_> {
-    fn begin(&mut self) -> Option<Leg> {
-        self.leg.take()
+    fn begin(&mut self) -> Option<Segment> {
+        self.segment.take()
     }
 
     fn sample(&mut self, sample: &Sample<'_>) -> bool {
@@ -195,7 +195,7 @@ impl Task for Lap<'_> {
         self.recording.step(step);
     }
 
-    fn end(&mut self, _: End) -> Option<Leg> {
+    fn end(&mut self, _: End) -> Option<Segment> {
         None
     }
 }

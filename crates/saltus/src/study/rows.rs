@@ -9,7 +9,7 @@ use saltus_orbits::{Exponent, MotionKind};
 
 use super::pursuit::attractors;
 use super::search::Search;
-use super::{Control, StudyError, SweepRow, growth};
+use super::{Control, StudyError, SweepRow, lyapunov_of_states};
 use crate::model::{Model, ModelError};
 
 /// Name of the motion of a row in the long run.
@@ -106,7 +106,7 @@ where
             Ok::<_, ModelError>((model_at(value)?, point.clone()))
         };
         let starts = some.iter().map(start).collect::<Result<Vec<_>, _>>()?;
-        let found = growth(&starts, columns, periods, control)?;
+        let found = lyapunov_of_states(&starts, columns, periods, control)?;
         for ((index, ..), growth) in some.iter().zip(found) {
             if growth.status == Status::Completed {
                 exponents[*index] = growth.spectrum.estimate();

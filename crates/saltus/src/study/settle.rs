@@ -1,6 +1,6 @@
 //! Going on from many states at once until transients have died.
 
-use saltus_hybrid::{End, Leg, Point, Sample, Status, Task, integrate_all};
+use saltus_hybrid::{End, Point, Sample, Segment, Status, Task, integrate_all};
 
 use super::{Control, StudyError};
 use crate::model::Model;
@@ -29,7 +29,7 @@ pub fn settle(
     control: &Control,
 ) -> Result<Vec<Settled>, StudyError> {
     let task = |(model, start): &(Model, Point)| Run {
-        leg: Some(Leg {
+        segment: Some(Segment {
             system: model.system().clone(),
             start: start.clone(),
             periods: transient + record,
@@ -50,7 +50,7 @@ pub fn settle(
 }
 
 struct Run<'a> {
-    leg: Option<Leg>,
+    segment: Option<Segment>,
     model: Model,
     control: &'a Control,
     transient: u64,
@@ -58,8 +58,8 @@ struct Run<'a> {
 }
 
 impl Task for Run<'_> {
-    fn begin(&mut self) -> Option<Leg> {
-        self.leg.take()
+    fn begin(&mut self) -> Option<Segment> {
+        self.segment.take()
     }
 
     fn sample(&mut self, sample: &Sample<'_>) -> bool {
@@ -71,7 +71,7 @@ impl Task for Run<'_> {
         true
     }
 
-    fn end(&mut self, end: End) -> Option<Leg> {
+    fn end(&mut self, end: End) -> Option<Segment> {
         self.out.end = end.point;
         self.out.status = end.status;
         None

@@ -1,7 +1,7 @@
 //! The brute-force bifurcation diagram: for each value of a parameter, let transients die, then keep
 //! the stroboscopic samples. Del Prado's method, as DP section 3 uses it.
 
-use saltus_hybrid::{End, Leg, Point, Sample, Status, Task, integrate_groups};
+use saltus_hybrid::{End, Point, Sample, Segment, Status, Task, integrate_groups};
 
 use super::{Control, StudyError};
 use crate::model::{Contact, Model, ModelError};
@@ -198,7 +198,7 @@ where
     F: Fn(f64) -> Result<Model, ModelError> + Sync,
 {
     /// The next value that has a model, from the carried state if there is one.
-    fn advance(&mut self, mut carried: Option<(Model, Point)>) -> Option<Leg> {
+    fn advance(&mut self, mut carried: Option<(Model, Point)>) -> Option<Segment> {
         while let Some(&(index, value)) = self.values.get(self.next) {
             self.next += 1;
             let mut row = SweepRow {
@@ -229,7 +229,7 @@ where
                     let room = || Vec::with_capacity(self.record as usize);
                     row.z = (0..bodies).map(|_| room()).collect();
                     row.v = (0..bodies).map(|_| room()).collect();
-                    let leg = Leg {
+                    let segment = Segment {
                         system: model.system().clone(),
                         start,
                         periods: self.transient + self.record,
@@ -241,7 +241,7 @@ where
                         row,
                         stance,
                     });
-                    return Some(leg);
+                    return Some(segment);
                 }
             }
         }
@@ -253,7 +253,7 @@ impl<F> Task for Chain<'_, F>
 where
     F: Fn(f64) -> Result<Model, ModelError> + Sync,
 {
-    fn begin(&mut self) -> Option<Leg> {
+    fn begin(&mut self) -> Option<Segment> {
         self.advance(None)
     }
 
@@ -279,7 +279,7 @@ where
         true
     }
 
-    fn end(&mut self, end: End) -> Option<Leg> {
+    fn end(&mut self, end: End) -> Option<Segment> {
         let Current {
             index,
             model,

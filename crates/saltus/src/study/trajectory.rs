@@ -1,7 +1,7 @@
 //! One trajectory in full: section, switches, time history, energies.
 
 use saltus_hybrid::{
-    End, Evaluator, Leg, Point, Sample, Status, Step, Switch, SwitchKind, Task, integrate,
+    End, Evaluator, Point, Sample, Segment, Status, Step, Switch, SwitchKind, Task, integrate,
 };
 
 use super::peaks::Peaks;
@@ -70,7 +70,7 @@ pub fn simulate(
         probe: model.probe(),
         peaks: Peaks::new(bodies, model.system().state_len()),
         evaluator: model.evaluator(),
-        leg: Some(Leg {
+        segment: Some(Segment {
             system: model.system().clone(),
             start: start.clone(),
             periods,
@@ -111,7 +111,7 @@ struct Recorder<'a> {
     evaluator: Evaluator,
     probe: Probe,
     peaks: Peaks,
-    leg: Option<Leg>,
+    segment: Option<Segment>,
     /// First period of the history.
     from: u64,
     /// Points per period.
@@ -129,8 +129,8 @@ impl Recorder<'_> {
 }
 
 impl Task for Recorder<'_> {
-    fn begin(&mut self) -> Option<Leg> {
-        self.leg.take()
+    fn begin(&mut self) -> Option<Segment> {
+        self.segment.take()
     }
 
     fn sample(&mut self, sample: &Sample<'_>) -> bool {
@@ -213,7 +213,7 @@ impl Task for Recorder<'_> {
         self.out.peak_reaction.clone_from(&self.peaks.largest);
     }
 
-    fn end(&mut self, end: End) -> Option<Leg> {
+    fn end(&mut self, end: End) -> Option<Segment> {
         self.out.end = end;
         None
     }

@@ -4,7 +4,8 @@ use saltus::model::{ModelError, PreparedPlate, Setup};
 use saltus::orbits::MotionKind;
 use saltus::physics::PhysicsError;
 use saltus::study::{
-    Catalogue, Control, Found, Grid, Lost, Search, StudyError, Sweep, attractors, map, simulate,
+    AttractorCatalogue, Control, Found, Grid, Lost, Search, StudyError, Sweep, attractors, map,
+    simulate,
 };
 use std::sync::Arc;
 
@@ -261,7 +262,7 @@ fn coexisting_attractors_are_told_apart_and_shifts_of_one_are_not() {
         },
     )
     .expect("runs");
-    let mut all = Catalogue::default();
+    let mut all = AttractorCatalogue::default();
     let numbers: Vec<_> = motions
         .into_iter()
         .enumerate()

@@ -4,8 +4,8 @@ use saltus::model::{Model, ModelError, PreparedPlate, Setup};
 use saltus::orbits::MotionKind;
 use saltus::physics::BaseFrequency;
 use saltus::study::{
-    Catalogue, Census, Control, Fraction, Lineages, Pass, Search, Starts, StudyError, Sweep,
-    attractors, census, follow, recurrence, sweep,
+    AttractorCatalogue, AttractorCensus, BasinFraction, ContinuedAttractors, Control, Pass, Search,
+    Starts, StudyError, Sweep, attractors, census, follow, recurrence, sweep,
 };
 use std::sync::{Arc, LazyLock};
 
@@ -34,14 +34,14 @@ fn control(threads: usize) -> Control {
     }
 }
 
-fn followed(values: &[f64], ratio: f64, count: usize, threads: usize) -> Lineages {
+fn followed(values: &[f64], ratio: f64, count: usize, threads: usize) -> ContinuedAttractors {
     let model_at = |zeta| model(zeta, ratio);
     let (starts, search) = (starts(count), Search::default());
     follow(values, model_at, &starts, &search, &control(threads)).expect("runs")
 }
 
 /// All starts that came to something else than an attractor.
-fn without(census: &Census) -> u64 {
+fn without(census: &AttractorCensus) -> u64 {
     census.undecided.count + census.lost.count
 }
 
@@ -93,7 +93,7 @@ fn a_slow_transient_is_no_attractor_and_counts_for_what_it_becomes() {
 }
 
 /// The attractors that `count` starts lead to.
-fn counted(zeta: f64, ratio: f64, count: usize) -> Census {
+fn counted(zeta: f64, ratio: f64, count: usize) -> AttractorCensus {
     let model = model(zeta, ratio).expect("valid");
     census(&model, &starts(count), &Search::default(), &control(0)).expect("runs")
 }
@@ -179,7 +179,7 @@ fn an_attractor_that_no_start_meets_is_found_from_its_neighbours() {
     let [low, high] = often.fraction.interval();
     assert!(low < 0.970 && 0.970 < high, "{low} {high}");
     assert_eq!(rare.fraction.count, 0);
-    assert!(0.030 < Fraction::unseen(48) && 0.030 < rare.fraction.interval()[1]);
+    assert!(0.030 < BasinFraction::unseen(48) && 0.030 < rare.fraction.interval()[1]);
     // it is the 4-cycle of smaller damping
     let before = &found.rows[1].attractors()[rare.identity];
     assert_eq!(before.identity, rare.identity);
@@ -271,7 +271,7 @@ fn basins_at_a_value_share_its_numbers() {
     // the rare one first
     let places = [(4.933_333_333_333_334, 0.8), (3.0, 2.0)];
     let start_at = |i: usize| Ok((model.clone(), model.start(places[i].0, places[i].1)));
-    let mut basins = Catalogue::default();
+    let mut basins = AttractorCatalogue::default();
     let mut motions = vec![None; places.len()];
     attractors(
         0..places.len(),
@@ -339,7 +339,7 @@ fn odd_questions_have_answers() {
     let found = census(&model, &far, &search, &control(0)).expect("runs");
     assert_eq!(without(&found), 4);
     let none = census(&model, &starts(0), &search, &control(0)).expect("runs");
-    assert_eq!(none, Census::default());
+    assert_eq!(none, AttractorCensus::default());
     assert!(followed(&[], 0.9, 4, 0).rows.is_empty());
     let stopped = control(0);
     stopped

@@ -4,7 +4,7 @@
 use std::sync::atomic::AtomicBool;
 
 use saltus::hybrid::{
-    End, Leg, Method, Mode as ContactMode, Options, Point, Sample, Status, Step, Switch,
+    End, Method, Mode as ContactMode, Options, Point, Sample, Segment, Status, Step, Switch,
     SwitchKind, Task, integrate, record,
 };
 use saltus::model::{Contact, EnergyBalance, Inertia, Model, ModelError, Section, Setup};
@@ -423,7 +423,7 @@ fn without_damping_all_contact_laws_are_one() {
 
 /// Shows every dense point (9 a step) and every switch.
 struct Watcher<F, G> {
-    leg: Option<Leg>,
+    leg: Option<Segment>,
     point: F,
     switch: G,
 }
@@ -433,7 +433,7 @@ where
     F: FnMut(&[ContactMode], &[f64]) + Send,
     G: FnMut(&Switch<'_>) + Send,
 {
-    fn begin(&mut self) -> Option<Leg> {
+    fn begin(&mut self) -> Option<Segment> {
         self.leg.take()
     }
     fn sample(&mut self, _: &Sample<'_>) -> bool {
@@ -452,7 +452,7 @@ where
             (self.point)(step.modes, &x);
         }
     }
-    fn end(&mut self, end: End) -> Option<Leg> {
+    fn end(&mut self, end: End) -> Option<Segment> {
         assert_eq!(end.status, Status::Completed);
         None
     }
@@ -466,7 +466,7 @@ fn watch(
     switch: impl FnMut(&Switch<'_>) + Send,
 ) {
     let watcher = Watcher {
-        leg: Some(Leg {
+        leg: Some(Segment {
             system: model.system().clone(),
             start,
             periods,
@@ -765,7 +765,7 @@ fn rk4_refuses_a_step_above_its_stability_limit_and_the_limit_is_sharp() {
     assert!(simulate(&model, &start, 1, 0, 1, &rk4(needed - 1)).is_err());
 
     let largest = |steps: u32, periods| {
-        let leg = Leg {
+        let leg = Segment {
             system: model.system().clone(),
             start: start.clone(),
             periods,

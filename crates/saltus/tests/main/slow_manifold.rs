@@ -2,14 +2,14 @@
 
 #![allow(clippy::unwrap_used)] // a test may panic
 
-use saltus::hybrid::{Leg, Method, Options, Recording, record};
+use saltus::hybrid::{Method, Options, Recording, Segment, record};
 use saltus::model::{Inertia, ModelError, Setup};
 use saltus::physics::{InPlaneBasis, ModeSet};
 
 /// (r/h, r'/(h Omega), z/h, z'/(h Omega)) after some periods of the paper's case.
 fn end(setup: &Setup, periods: u64, method: Method) -> (Vec<f64>, Recording) {
     let model = setup.model().unwrap();
-    let leg = Leg {
+    let segment = Segment {
         system: model.system().clone(),
         start: model.start(3.0, 2.0),
         periods,
@@ -18,7 +18,7 @@ fn end(setup: &Setup, periods: u64, method: Method) -> (Vec<f64>, Recording) {
         method,
         ..Options::default()
     };
-    let run = record(&leg, &options).unwrap();
+    let run = record(&segment, &options).unwrap();
     let states = model.free_states();
     (run.end.point.x[states - 10..states].to_vec(), run)
 }

@@ -6,7 +6,7 @@
 use std::sync::atomic::AtomicBool;
 
 use saltus::hybrid::{
-    End, Instructions, Leg, Method, Options, Point, Recording, Sample, Status, System, Task,
+    End, Instructions, Method, Options, Point, Recording, Sample, Segment, Status, System, Task,
     integrate, record,
 };
 use saltus::model::{Inertia, Model, Setup};
@@ -28,7 +28,7 @@ fn setups() -> Vec<Setup> {
 }
 
 fn run(model: &Model, instructions: Instructions, order: usize) -> Recording {
-    let leg = Leg {
+    let segment = Segment {
         system: model.system().clone(),
         start: model.start(3.0, 2.0),
         periods: 12,
@@ -41,7 +41,7 @@ fn run(model: &Model, instructions: Instructions, order: usize) -> Recording {
         instructions,
         ..Options::default()
     };
-    record(&leg, &options).unwrap()
+    record(&segment, &options).unwrap()
 }
 
 fn bits(recording: &Recording, states: usize) -> Vec<u64> {
@@ -101,7 +101,7 @@ fn a_tangent_has_the_same_bits_interpreted_and_written_out() {
         let system = model.system().with_tangents(1).unwrap();
         let mut start = system.point(&[0], &model.start(-0.5, 1.0).x[..model.free_states()]);
         system.columns_mut(&mut start.x)[9] = 1.0;
-        let leg = Leg {
+        let segment = Segment {
             system: system.clone(),
             start,
             periods: 5,
@@ -110,7 +110,7 @@ fn a_tangent_has_the_same_bits_interpreted_and_written_out() {
             method: Method::taylor(1e-9),
             ..Options::default()
         };
-        let end = record(&leg, &options).unwrap().end.point.x;
+        let end = record(&segment, &options).unwrap().end.point.x;
         let column = system.columns(&end).iter();
         (
             system.is_specialised(),
@@ -143,7 +143,7 @@ fn avx2_and_avx512_agree_to_the_bit_and_plain_code_to_rounding() {
 fn every_written_program_runs_in_512_kib_of_stack() {
     // As `saltus-hybrid/tests/stack.rs` for those that are interpreted.
     let run = |system: System, point: Point| {
-        let leg = Leg {
+        let segment = Segment {
             system,
             start: point,
             periods: 3,
@@ -158,7 +158,7 @@ fn every_written_program_runs_in_512_kib_of_stack() {
                     instructions,
                     ..Options::default()
                 };
-                let end = record(&leg, &options).unwrap().end;
+                let end = record(&segment, &options).unwrap().end;
                 assert_eq!(end.status, Status::Completed);
             }
         };
@@ -175,21 +175,21 @@ fn every_written_program_runs_in_512_kib_of_stack() {
 }
 
 struct Kept {
-    leg: Option<Leg>,
+    segment: Option<Segment>,
     id: usize,
     bits: Vec<u64>,
     status: Option<Status>,
 }
 
 impl Task for Kept {
-    fn begin(&mut self) -> Option<Leg> {
-        self.leg.take()
+    fn begin(&mut self) -> Option<Segment> {
+        self.segment.take()
     }
     fn sample(&mut self, sample: &Sample<'_>) -> bool {
         self.bits.extend(sample.x.iter().map(|x| x.to_bits()));
         true
     }
-    fn end(&mut self, end: End) -> Option<Leg> {
+    fn end(&mut self, end: End) -> Option<Segment> {
         self.status = Some(end.status);
         None
     }
@@ -201,7 +201,7 @@ fn crowd(order: &[usize], z: impl Fn(usize) -> f64) -> Vec<Kept> {
         let setup = Setup::dias_del_prado(0.1 + 0.02 * id as f64, 1.0);
         let model = setup.model().unwrap();
         Kept {
-            leg: Some(Leg {
+            segment: Some(Segment {
                 start: model.start(z(id), 2.0),
                 system: model.system().clone(),
                 periods: 6 + id as u64 % 5,

@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 
 use saltus::hybrid::{Method, Options, System};
 use saltus::model::{Contact, GRAVITY, Inertia, Model, Setup};
-use saltus::orbits::{Family, Image, Matrix, Place, Shot, Stroboscopic};
+use saltus::orbits::{Image, MapPoint, MapRequest, Matrix, ParametricMap, Stroboscopic};
 use saltus::physics::{
     Base, BaseFrequency, ContactLaw, FrequencyReference, Jumper, Mode, ModeSet, Plate,
 };
@@ -28,11 +28,11 @@ fn options(tolerance: f64) -> Options {
 }
 
 /// Images of places under one model, with the derivative or without.
-fn images(model: &Model, starts: &[Place], derivative: bool) -> Vec<Image> {
+fn images(model: &Model, starts: &[MapPoint], derivative: bool) -> Vec<Image> {
     let system = |_: &[f64]| -> Result<System, String> { Ok(model.system().clone()) };
     let stop = AtomicBool::new(false);
     let map = Stroboscopic::new(system, model.free_states(), options(1e-14), 1, &stop);
-    let shot = |start| Shot {
+    let shot = |start| MapRequest {
         parameters: &[],
         start,
         derivative,
@@ -42,25 +42,25 @@ fn images(model: &Model, starts: &[Place], derivative: bool) -> Vec<Image> {
 }
 
 /// A place on the way to the long-term motion.
-fn place(model: &Model, periods: u64) -> Place {
+fn place(model: &Model, periods: u64) -> MapPoint {
     let start = model.start(3.0, 2.0);
     let run = simulate(model, &start, periods, 0, 1, &Control::default()).unwrap();
     let end = run.end.point;
-    Place {
+    MapPoint {
         modes: end.modes,
         x: end.x[..model.free_states()].to_vec(),
     }
 }
 
 /// Largest difference between the derivative and central differences, over the largest entry.
-fn against_differences(model: &Model, from: &Place) -> f64 {
+fn against_differences(model: &Model, from: &MapPoint) -> f64 {
     let exact = images(model, std::slice::from_ref(from), true)
         .remove(0)
         .derivative
         .unwrap();
     let n = from.x.len();
     let step = 1e-6;
-    let moved: Vec<Place> = (0..2 * n)
+    let moved: Vec<MapPoint> = (0..2 * n)
         .map(|i| {
             let mut place = from.clone();
             place.x[i / 2] += if i % 2 == 0 { step } else { -step };
@@ -170,7 +170,7 @@ fn areas_on_a_rigid_base_shrink_while_in_contact() {
 }
 
 /// Part of a period in contact.
-fn contact_time(from: &Place, crossings: &[saltus::orbits::Crossing]) -> f64 {
+fn contact_time(from: &MapPoint, crossings: &[saltus::orbits::Crossing]) -> f64 {
     let mut mode = from.modes[0];
     let (mut since, mut contact) = (0.0, 0.0);
     for crossing in crossings {

@@ -9,7 +9,7 @@ use super::view::Seen;
 use crate::data::{about, in_unit_of, motion, name, padded, parameter, texts, values, wholes};
 use crate::quantities as q;
 use saltus::model::Section;
-use saltus::orbits::{Limb, Multiplier, Point, Special, Stability};
+use saltus::orbits::{BranchWithOrigin, Multiplier, Point, Special, Stability};
 use saltus_results::{Dataset, Quantity, Table};
 
 pub(super) fn data(found: &Found) -> Dataset {
@@ -38,7 +38,7 @@ pub(super) fn data(found: &Found) -> Dataset {
 struct OnBranch<'a> {
     branch: usize,
     number: usize,
-    limb: &'a Limb,
+    limb: &'a BranchWithOrigin,
     point: &'a Point,
     seen: &'a Seen,
 }
@@ -148,11 +148,12 @@ fn point_tables(set: Dataset, found: &Found) -> Dataset {
 fn branches(set: Dataset, found: &Found) -> Dataset {
     let over = ["branch_number"];
     let (parameter, limbs) = (&found.question.parameter, &found.limbs);
-    let whole = |quantity: Quantity, of: fn(&Limb) -> usize| {
+    let whole = |quantity: Quantity, of: fn(&BranchWithOrigin) -> usize| {
         quantity.over(&over, wholes(limbs.iter().map(of)))
     };
     let value = |quantity: Quantity, of: fn(&[Point]) -> Option<&Point>| {
-        let value = |limb: &Limb| of(&limb.branch.points).map_or(f64::NAN, |p| p.parameter);
+        let value =
+            |limb: &BranchWithOrigin| of(&limb.branch.points).map_or(f64::NAN, |p| p.parameter);
         let values: Vec<f64> = limbs.iter().map(value).collect();
         in_unit_of(parameter, quantity.over(&over, values))
     };
@@ -185,12 +186,12 @@ fn branches(set: Dataset, found: &Found) -> Dataset {
         .table(table("branches", ["value_first", "value_last"].map(str::to_owned)).in_document())
 }
 
-fn origin(limb: &Limb) -> &str {
+fn origin(limb: &BranchWithOrigin) -> &str {
     limb.origin.as_deref().unwrap_or_default()
 }
 
 /// Forcing periods of the orbits of a branch.
-pub(super) fn period(limb: &Limb) -> usize {
+pub(super) fn period(limb: &BranchWithOrigin) -> usize {
     limb.branch.points.first().map_or(0, |p| p.orbit.period())
 }
 

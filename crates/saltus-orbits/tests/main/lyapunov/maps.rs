@@ -1,6 +1,6 @@
 //! Maps of one line whose exponents are known.
 
-use saltus_orbits::{Family, Image, Lost, Matrix, Place, Shot};
+use saltus_orbits::{Image, MapPoint, MapRequest, Matrix, NoImage, ParametricMap};
 
 /// x' and dx'/dx, row by row, from parameters and x.
 type Rule = fn(&[f64], &[f64]) -> (Vec<f64>, Vec<f64>);
@@ -10,18 +10,18 @@ pub(crate) struct Toy {
     rule: Rule,
 }
 
-impl Family for Toy {
+impl ParametricMap for Toy {
     fn dimension(&self) -> usize {
         self.dimension
     }
 
-    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
+    fn images(&self, shots: &[MapRequest<'_>]) -> Vec<Result<Image, NoImage>> {
         shots.iter().map(|shot| Ok(self.image(shot))).collect()
     }
 }
 
 impl Toy {
-    fn image(&self, shot: &Shot<'_>) -> Image {
+    fn image(&self, shot: &MapRequest<'_>) -> Image {
         let n = self.dimension;
         let (x, rows) = (self.rule)(shot.parameters, &shot.start.x);
         Image {
@@ -33,8 +33,8 @@ impl Toy {
     }
 }
 
-pub(crate) fn place(x: &[f64]) -> Place {
-    Place {
+pub(crate) fn place(x: &[f64]) -> MapPoint {
+    MapPoint {
         modes: Vec::new(),
         x: x.to_vec(),
     }

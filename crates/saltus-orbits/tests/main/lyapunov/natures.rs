@@ -2,7 +2,9 @@
 
 use super::exponents::{HENON_CLASSIC, fed, golden, record};
 use super::maps::{CIRCLE, DELAYED, DOUBLING, HENON, LOGISTIC, TENT, Toy, place};
-use saltus_orbits::{Criteria, Doubt, Follower, MotionKind, Recurrence, Spectrum, Verdict, judge};
+use saltus_orbits::{
+    Criteria, Follower, MotionKind, Recurrence, Spectrum, UndecidedReason, Verdict, judge,
+};
 
 /// With no help from recurrence.
 fn open(spectrum: &Spectrum) -> Verdict {
@@ -62,9 +64,9 @@ fn a_cycle_is_periodic_only_where_it_recurs() {
     // the middle of the window of period three
     let spectrum = record(&LOGISTIC, &[3.83], &[0.3], 2000);
     assert_eq!(on_cycle(&spectrum, 3).kind, MotionKind::Periodic(3));
-    assert_eq!(open(&spectrum).doubt, Some(Doubt::NoPeriod));
+    assert_eq!(open(&spectrum).doubt, Some(UndecidedReason::NoPeriod));
     let drifts = judge(&spectrum, Recurrence::Drifting, &Criteria::default());
-    assert_eq!(drifts.doubt, Some(Doubt::Drift));
+    assert_eq!(drifts.doubt, Some(UndecidedReason::Drift));
     let far = Recurrence::Recurs {
         period: 3,
         rest: 0.1,
@@ -85,7 +87,7 @@ fn an_unstable_cycle_is_no_chaos_and_more_iterates_do_not_help() {
         rest: 0.0,
     };
     let verdict = judge(&spectrum, recurs, &Criteria::default());
-    assert_eq!(verdict.doubt, Some(Doubt::UnstableCycle));
+    assert_eq!(verdict.doubt, Some(UndecidedReason::UnstableCycle));
     assert!(!verdict.needs_more());
 }
 
@@ -98,7 +100,7 @@ fn leaving_an_unstable_fixed_point_is_no_chaos() {
     };
     let verdict = open(&leaving(150));
     assert!(verdict.exponent.positive(0.0) > 0.999, "{verdict:?}");
-    assert_eq!(verdict.doubt, Some(Doubt::Growth));
+    assert_eq!(verdict.doubt, Some(UndecidedReason::Growth));
     assert!(verdict.needs_more());
     assert_eq!(on_cycle(&leaving(2000), 2).kind, MotionKind::Periodic(2));
 }
@@ -133,14 +135,17 @@ fn growth_that_wanders_is_no_chaos_however_far_it_wanders() {
     // its standard deviation is 3 sqrt(2000) = 134
     let far = |verdict: &&Verdict| verdict.exponent.per_iterate * 2000.0 > 36.1;
     assert!(all.iter().filter(far).count() > 5);
-    assert!(all.iter().all(|verdict| verdict.doubt == Some(Doubt::Sign)));
+    assert!(
+        all.iter()
+            .all(|verdict| verdict.doubt == Some(UndecidedReason::Sign))
+    );
 }
 
 #[test]
 fn growth_that_is_made_up_for_later_is_no_torus() {
     let verdict = open(&fed((0..4000).map(|k| if k < 2000 { 0.01 } else { -0.01 })));
     assert!(verdict.exponent.per_iterate.abs() < 1e-12);
-    assert_eq!(verdict.doubt, Some(Doubt::Sign), "{verdict:?}");
+    assert_eq!(verdict.doubt, Some(UndecidedReason::Sign), "{verdict:?}");
 }
 
 /// Feigenbaum's point (3.569 945 672), where all cycles of length 2^n have lost their stability, and the first
@@ -216,8 +221,8 @@ fn strong_chaos_is_known_early_and_weak_chaos_later() {
 fn too_few_iterates_say_nothing() {
     for iterates in 0..20 {
         let spectrum = record(&LOGISTIC, &[4.0], &[0.3], iterates);
-        assert_eq!(open(&spectrum).doubt, Some(Doubt::Sign));
-        assert_eq!(on_cycle(&spectrum, 1).doubt, Some(Doubt::Sign));
+        assert_eq!(open(&spectrum).doubt, Some(UndecidedReason::Sign));
+        assert_eq!(on_cycle(&spectrum, 1).doubt, Some(UndecidedReason::Sign));
         assert!(open(&spectrum).needs_more());
     }
 }

@@ -5,26 +5,27 @@ use super::maps::{
 };
 use proptest::prelude::*;
 use saltus_orbits::{
-    Along, Branch, BranchesOptions, ContinuationError, ContinuationOptions, End, Family, Limb,
-    NewtonOptions, Orbit, Place, Special, SpecialKind, branches, find_orbit, follow, follow_both,
+    Branch, BranchWithOrigin, BranchesOptions, ContinuationError, ContinuationOptions, End,
+    MapPoint, NewtonOptions, Orbit, ParameterRange, ParametricMap, Special, SpecialKind, branches,
+    find_orbit, follow, follow_both,
 };
 use std::f64::consts::{FRAC_PI_3, PI};
 use std::sync::atomic::Ordering;
 
-fn orbit(family: &impl Family, parameters: &[f64], start: &[&[f64]]) -> Orbit {
-    let start: Vec<Place> = start.iter().map(|x| at(x)).collect();
+fn orbit(family: &impl ParametricMap, parameters: &[f64], start: &[&[f64]]) -> Orbit {
+    let start: Vec<MapPoint> = start.iter().map(|x| at(x)).collect();
     find_orbit(family, parameters, &start, &NewtonOptions::default()).unwrap()
 }
 
-fn along(parameter: usize, from: f64, to: f64) -> Along {
-    Along {
+fn along(parameter: usize, from: f64, to: f64) -> ParameterRange {
+    ParameterRange {
         parameter,
         from,
         to,
     }
 }
 
-fn both(family: &impl Family, start: &Orbit, along: &Along) -> Branch {
+fn both(family: &impl ParametricMap, start: &Orbit, along: &ParameterRange) -> Branch {
     let options = ContinuationOptions::default();
     follow_both(family, start, along, &options, &mut |_| true).unwrap()
 }
@@ -218,7 +219,7 @@ fn interruption_and_limits_end_a_branch_and_keep_it() {
 fn questions_without_sense_are_errors() {
     let (map, options) = (logistic(), ContinuationOptions::default());
     let start = orbit(&map, &[2.0], &[&[0.5]]);
-    let ask = |along: Along, options: &ContinuationOptions| {
+    let ask = |along: ParameterRange, options: &ContinuationOptions| {
         follow(&map, &start, &along, true, options, &mut |_| true).unwrap_err()
     };
     let no = ContinuationError::NoParameter { index: 1, count: 1 };
@@ -274,7 +275,7 @@ fn a_cascade_for_its_stable_parts_has_the_same_doublings_and_stops_where_it_is_t
     let of = |options: &BranchesOptions| {
         // far enough for branches to be unstable for longer than they are followed
         let all = branches(&map, &start, &along(0, 2.0, 3.9), options, &mut |_| true).unwrap();
-        let doubling = |limb: &Limb| {
+        let doubling = |limb: &BranchWithOrigin| {
             let mut all = limb.branch.specials.iter();
             Some(
                 all.find(|s| s.kind == SpecialKind::PeriodDoubling)?

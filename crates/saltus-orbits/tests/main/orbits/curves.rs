@@ -2,12 +2,12 @@
 
 use super::maps::{Border, at, henon, logistic, trace_and_determinant};
 use saltus_orbits::{
-    Along, ContinuationError, ContinuationOptions, Curve, End, Family, NewtonOptions, Place,
-    Special, SpecialKind, find_orbit, follow_both, follow_curve,
+    ContinuationError, ContinuationOptions, Curve, End, MapPoint, NewtonOptions, ParameterRange,
+    ParametricMap, Special, SpecialKind, find_orbit, follow_both, follow_curve,
 };
 
-fn along(parameter: usize, from: f64, to: f64) -> Along {
-    Along {
+fn along(parameter: usize, from: f64, to: f64) -> ParameterRange {
+    ParameterRange {
         parameter,
         from,
         to,
@@ -16,10 +16,10 @@ fn along(parameter: usize, from: f64, to: f64) -> Along {
 
 /// The first special point of a kind on the branch of a fixed point over parameter 0.
 fn special(
-    map: &impl Family,
+    map: &impl ParametricMap,
     parameters: &[f64],
-    start: Place,
-    range: &Along,
+    start: MapPoint,
+    range: &ParameterRange,
     short: &str,
 ) -> Special {
     let start = find_orbit(map, parameters, &[start], &NewtonOptions::default()).unwrap();
@@ -29,7 +29,7 @@ fn special(
     all.find(|special| special.kind.short() == short).unwrap()
 }
 
-fn curve(map: &impl Family, start: &Special, over: [&Along; 2]) -> Curve {
+fn curve(map: &impl ParametricMap, start: &Special, over: [&ParameterRange; 2]) -> Curve {
     follow_curve(
         map,
         start,
@@ -98,7 +98,7 @@ fn neimark_sacker_points_end_where_their_pair_becomes_real() {
 fn a_grazing_is_followed_along_its_line() {
     // The fixed point mu/(1 - left) touches the wall at 1 for mu = 1 - left.
     let (left, range) = (along(1, -0.9, 0.9), along(0, -0.5, 2.5));
-    let place = Place {
+    let place = MapPoint {
         modes: vec![0],
         x: vec![0.0],
     };

@@ -1,7 +1,7 @@
 //! Single orbits.
 
 use super::maps::{Smooth, at, henon, logistic};
-use saltus_orbits::{Lost, NewtonOptions, NotFound, Orbit, find_orbit};
+use saltus_orbits::{NewtonOptions, NoImage, NotFound, Orbit, find_orbit};
 
 fn segments(count: usize) -> NewtonOptions {
     NewtonOptions {
@@ -88,8 +88,8 @@ fn a_map_that_is_not_finite_is_lost_and_does_not_hang() {
     let answer = find_orbit(&map, &[], &[at(&[0.1, 0.2])], &NewtonOptions::default());
     assert!(matches!(
         answer,
-        Err(NotFound::Lost {
-            reason: Lost::Ended(_),
+        Err(NotFound::NoImage {
+            reason: NoImage::Ended(_),
             ..
         })
     ));

@@ -2,20 +2,20 @@
 
 use super::maps::{Border, Clock, Nordmark, Root};
 use saltus_orbits::{
-    Along, Branch, ContinuationOptions, End, Family, NewtonOptions, Orbit, Place, SpecialKind,
-    find_orbit, follow_both,
+    Branch, ContinuationOptions, End, MapPoint, NewtonOptions, Orbit, ParameterRange,
+    ParametricMap, SpecialKind, find_orbit, follow_both,
 };
 
-fn orbit(family: &impl Family, parameters: &[f64], x: &[f64]) -> Orbit {
-    let start = Place {
+fn orbit(family: &impl ParametricMap, parameters: &[f64], x: &[f64]) -> Orbit {
+    let start = MapPoint {
         modes: vec![0],
         x: x.to_vec(),
     };
     find_orbit(family, parameters, &[start], &NewtonOptions::default()).unwrap()
 }
 
-fn both(family: &impl Family, start: &Orbit) -> Branch {
-    let range = Along {
+fn both(family: &impl ParametricMap, start: &Orbit) -> Branch {
+    let range = ParameterRange {
         parameter: 0,
         from: -0.5,
         to: 0.5,
@@ -129,7 +129,7 @@ fn switches_of_two_units_change_their_order_and_wander_through_the_sampling_inst
     // The switches of unit 0 meet those of unit 1 at p = 0.15, 0.25, 0.45, 0.55; at 0.4 one of them passes
     // the sampling instant, which changes the modes there and nothing else.
     let start = orbit(&Clock, &[0.05], &[0.1]);
-    let range = Along {
+    let range = ParameterRange {
         parameter: 0,
         from: 0.0,
         to: 0.6,

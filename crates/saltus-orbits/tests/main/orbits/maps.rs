@@ -1,6 +1,6 @@
 //! Maps with known answers.
 
-use saltus_orbits::{Crossing, Family, Image, Lost, Matrix, Place, Shot, Touch};
+use saltus_orbits::{Crossing, Image, MapPoint, MapRequest, Matrix, NoImage, ParametricMap, Touch};
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -32,19 +32,19 @@ impl<const N: usize> Smooth<N> {
     }
 }
 
-impl<const N: usize> Family for Smooth<N> {
+impl<const N: usize> ParametricMap for Smooth<N> {
     fn dimension(&self) -> usize {
         N
     }
 
-    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
+    fn images(&self, shots: &[MapRequest<'_>]) -> Vec<Result<Image, NoImage>> {
         let stop = self.calls.fetch_add(1, Ordering::Relaxed) >= self.patience;
-        let image = |shot: &Shot<'_>| {
+        let image = |shot: &MapRequest<'_>| {
             if stop {
-                return Err(Lost::Interrupted);
+                return Err(NoImage::Interrupted);
             }
             if shot.parameters.first().is_some_and(|p| *p > self.until) {
-                return Err(Lost::NoMap(format!("no map above {}", self.until)));
+                return Err(NoImage::NoMap(format!("no map above {}", self.until)));
             }
             let (mut x, rows) = (self.map)(shot.parameters, shot.start.x[..].try_into().unwrap());
             for (x, start) in x.iter_mut().zip(&shot.start.x) {
@@ -63,8 +63,8 @@ impl<const N: usize> Family for Smooth<N> {
     }
 }
 
-pub(crate) fn at(x: &[f64]) -> Place {
-    Place {
+pub(crate) fn at(x: &[f64]) -> MapPoint {
+    MapPoint {
         modes: Vec::new(),
         x: x.to_vec(),
     }
@@ -143,15 +143,15 @@ pub(crate) struct Border;
 /// parameters rho, a, g, t (Nordmark 1991). x > 0 is an impact.
 pub(crate) struct Nordmark;
 
-impl Family for Border {
+impl ParametricMap for Border {
     fn dimension(&self) -> usize {
         1
     }
 
-    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
-        let image = |shot: &Shot<'_>| {
+    fn images(&self, shots: &[MapRequest<'_>]) -> Vec<Result<Image, NoImage>> {
+        let image = |shot: &MapRequest<'_>| {
             let [mu, left, right, wall] = shot.parameters[..] else {
-                return Err(Lost::NoMap("four parameters".into()));
+                return Err(NoImage::NoMap("four parameters".into()));
             };
             let over = shot.start.x[0] - wall;
             let slope = if over < 0.0 { left } else { right };
@@ -162,15 +162,15 @@ impl Family for Border {
     }
 }
 
-impl Family for Nordmark {
+impl ParametricMap for Nordmark {
     fn dimension(&self) -> usize {
         2
     }
 
-    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
-        let image = |shot: &Shot<'_>| {
+    fn images(&self, shots: &[MapRequest<'_>]) -> Vec<Result<Image, NoImage>> {
+        let image = |shot: &MapRequest<'_>| {
             let [rho, a, g, t] = shot.parameters[..] else {
-                return Err(Lost::NoMap("four parameters".into()));
+                return Err(NoImage::NoMap("four parameters".into()));
             };
             let (x, y) = (shot.start.x[0], shot.start.x[1]);
             let (u, du, gain) = if x <= 0.0 {
@@ -190,7 +190,7 @@ impl Family for Nordmark {
 }
 
 /// An image with a switch there and back if x > 0, and a touch of -x otherwise.
-fn visit(x: f64, to: &[f64], derivative: Matrix) -> Result<Image, Lost> {
+fn visit(x: f64, to: &[f64], derivative: Matrix) -> Result<Image, NoImage> {
     let crossing = |from, to, at| Crossing {
         unit: 0,
         from,
@@ -206,7 +206,7 @@ fn visit(x: f64, to: &[f64], derivative: Matrix) -> Result<Image, Lost> {
     };
     let there = x > 0.0;
     Ok(Image {
-        place: Place {
+        place: MapPoint {
             modes: vec![0],
             x: to.to_vec(),
         },
@@ -223,15 +223,15 @@ fn visit(x: f64, to: &[f64], derivative: Matrix) -> Result<Image, Lost> {
 /// x -> a x + rho for x < 0, a x + jump + sqrt x + rho beyond, parameters rho, a, jump: x > 0 is a visit.
 pub(crate) struct Root;
 
-impl Family for Root {
+impl ParametricMap for Root {
     fn dimension(&self) -> usize {
         1
     }
 
-    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
-        let image = |shot: &Shot<'_>| {
+    fn images(&self, shots: &[MapRequest<'_>]) -> Vec<Result<Image, NoImage>> {
+        let image = |shot: &MapRequest<'_>| {
             let [rho, a, jump] = shot.parameters[..] else {
-                return Err(Lost::NoMap("three parameters".into()));
+                return Err(NoImage::NoMap("three parameters".into()));
             };
             let x = shot.start.x[0];
             let (root, slope) = match x {
@@ -252,13 +252,13 @@ impl Family for Root {
 /// 0.85, whatever x. A start in another mode than the phase has leads elsewhere.
 pub(crate) struct Clock;
 
-impl Family for Clock {
+impl ParametricMap for Clock {
     fn dimension(&self) -> usize {
         1
     }
 
-    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
-        let image = |shot: &Shot<'_>| {
+    fn images(&self, shots: &[MapRequest<'_>]) -> Vec<Result<Image, NoImage>> {
+        let image = |shot: &MapRequest<'_>| {
             let (x, p) = (shot.start.x[0], shot.parameters[0]);
             let phases = [(0, 0, 0.3 + p), (0, 1, 0.6 + p), (1, 0, 0.75), (1, 1, 0.85)];
             let mut crossings: Vec<Crossing> = phases
@@ -274,7 +274,7 @@ impl Family for Clock {
             let modes = vec![usize::from((0.4..0.7).contains(&p)), 0];
             let wrong = if shot.start.modes == modes { 0.0 } else { 0.1 };
             Ok(Image {
-                place: Place {
+                place: MapPoint {
                     modes,
                     x: vec![0.5 * x + p + wrong],
                 },

@@ -6,7 +6,7 @@
 use std::f64::consts::{PI, TAU};
 
 use saltus_hybrid::{System, SystemBuilder, Transition};
-use saltus_orbits::{Branch, End, Lost, NewtonOptions, NotFound, Orbit, Place, find_orbit};
+use saltus_orbits::{Branch, End, MapPoint, NewtonOptions, NoImage, NotFound, Orbit, find_orbit};
 
 use super::machine::{along, both, curve, kinds, map, orbit, place};
 
@@ -38,7 +38,7 @@ fn ball([a, e]: [f64; 2], phase: f64) -> Result<System, String> {
 }
 
 /// Where the ball is at t = 0 if it bounces `before` that at table phase `at`, up at the speed pi.
-fn after_bounce(a: f64, at: f64, before: f64) -> Place {
+fn after_bounce(a: f64, at: f64, before: f64) -> MapPoint {
     let y = -a * at.cos() + PI * before - before * before / 2.0;
     place(&[0], &[y, PI - before])
 }
@@ -104,8 +104,8 @@ fn a_ball_that_comes_to_rest_is_said_to_chatter() {
     let map = map(2, |p: &[f64]| ball([p[0], p[1]], 0.0));
     let start = [place(&[0], &[0.1, 0.0])];
     let answer = find_orbit(&map, &[0.1, 0.5], &start, &NewtonOptions::default());
-    let Err(NotFound::Lost {
-        reason: Lost::Ended(why),
+    let Err(NotFound::NoImage {
+        reason: NoImage::Ended(why),
         ..
     }) = answer
     else {

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use saltus_hybrid::{System, SystemBuilder};
 use saltus_orbits::{
-    Along, BranchesOptions, ContinuationOptions, CurvePoint, End, Limb, Special, SpecialKind,
-    branches,
+    BranchWithOrigin, BranchesOptions, ContinuationOptions, CurvePoint, End, ParameterRange,
+    Special, SpecialKind, branches,
 };
 
 use super::independent::{characteristic, newton, rk4};
@@ -93,7 +93,7 @@ fn the_resonance_folds_where_a_runge_kutta_method_says() {
 }
 
 /// All branches over the force at omega = 1 that are connected with the motion at `f`.
-fn limbs(f: f64, range: Along) -> Vec<Limb> {
+fn limbs(f: f64, range: ParameterRange) -> Vec<BranchWithOrigin> {
     let map = map(2, |p: &[f64]| duffing(DAMPING, 1.0, [p[0], p[1]]));
     let start = settled(&map, &[f, 1.0], place(&[], &[0.0, 0.0]), 100);
     let options = BranchesOptions {

@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use saltus_hybrid::{System, SystemBuilder, Transition};
-use saltus_orbits::{Family, NewtonOptions, Orbit, Place, find_orbit};
+use saltus_orbits::{MapPoint, NewtonOptions, Orbit, ParametricMap, find_orbit};
 
 use super::independent::{bisected, characteristic, product, steady, swing};
 use super::machine::{along, both, curve, kinds, map, place};
@@ -70,7 +70,7 @@ fn once([omega, sigma]: [f64; 2], n: usize) -> Vec<Once> {
 }
 
 /// Its places at the beginnings of n periods.
-fn places([omega, sigma]: [f64; 2], n: usize, once: &Once) -> Vec<Place> {
+fn places([omega, sigma]: [f64; 2], n: usize, once: &Once) -> Vec<MapPoint> {
     let period = TAU / omega;
     let from = steady(ZETA, 1.0, omega, once.t);
     let off = [sigma - from[0], once.v - from[1]];
@@ -86,7 +86,7 @@ fn places([omega, sigma]: [f64; 2], n: usize, once: &Once) -> Vec<Place> {
 }
 
 /// The orbit with one impact in n periods that flies off fastest, as the code under test finds it.
-fn found(map: &impl Family, parameters: [f64; 2], n: usize) -> Orbit {
+fn found(map: &impl ParametricMap, parameters: [f64; 2], n: usize) -> Orbit {
     let mut all = once(parameters, n);
     all.sort_by(|a, b| a.v.total_cmp(&b.v));
     let start = places(parameters, n, &all[0]);

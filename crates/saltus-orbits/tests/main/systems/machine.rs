@@ -2,10 +2,11 @@
 
 use std::sync::atomic::AtomicBool;
 
-use saltus_hybrid::{End, Leg, Method, Options, Sample, Status, System, Task, integrate_all};
+use saltus_hybrid::{End, Method, Options, Sample, Segment, Status, System, Task, integrate_all};
 use saltus_orbits::{
-    Along, Branch, ContinuationOptions, CurvePoint, Family, NewtonOptions, Orbit, Place, Shot,
-    Special, Spectrum, Stroboscopic, find_orbit, follow_both, follow_curve,
+    Branch, ContinuationOptions, CurvePoint, MapPoint, MapRequest, NewtonOptions, Orbit,
+    ParameterRange, ParametricMap, Special, Spectrum, Stroboscopic, find_orbit, follow_both,
+    follow_curve,
 };
 
 pub(crate) static STOP: AtomicBool = AtomicBool::new(false);
@@ -28,8 +29,8 @@ where
     Stroboscopic::new(system_at, dimension, options(), 1, &STOP)
 }
 
-pub(crate) fn place(modes: &[usize], x: &[f64]) -> Place {
-    Place {
+pub(crate) fn place(modes: &[usize], x: &[f64]) -> MapPoint {
+    MapPoint {
         modes: modes.to_vec(),
         x: x.to_vec(),
     }
@@ -37,13 +38,13 @@ pub(crate) fn place(modes: &[usize], x: &[f64]) -> Place {
 
 /// Where the motion from `at` is after so many periods.
 pub(crate) fn settled(
-    map: &impl Family,
+    map: &impl ParametricMap,
     parameters: &[f64],
-    mut at: Place,
+    mut at: MapPoint,
     periods: usize,
-) -> Place {
+) -> MapPoint {
     for _ in 0..periods {
-        let shot = Shot {
+        let shot = MapRequest {
             parameters,
             start: &at,
             derivative: false,
@@ -53,19 +54,19 @@ pub(crate) fn settled(
     at
 }
 
-pub(crate) fn orbit(map: &impl Family, parameters: &[f64], at: Place) -> Orbit {
+pub(crate) fn orbit(map: &impl ParametricMap, parameters: &[f64], at: MapPoint) -> Orbit {
     find_orbit(map, parameters, &[at], &NewtonOptions::default()).unwrap()
 }
 
-pub(crate) fn along(parameter: usize, from: f64, to: f64) -> Along {
-    Along {
+pub(crate) fn along(parameter: usize, from: f64, to: f64) -> ParameterRange {
+    ParameterRange {
         parameter,
         from,
         to,
     }
 }
 
-pub(crate) fn both(map: &impl Family, start: &Orbit, range: &Along) -> Branch {
+pub(crate) fn both(map: &impl ParametricMap, start: &Orbit, range: &ParameterRange) -> Branch {
     let options = ContinuationOptions::default();
     follow_both(map, start, range, &options, &mut |_| true).unwrap()
 }
@@ -79,7 +80,11 @@ pub(crate) fn only<'a>(branch: &'a Branch, short: &str) -> &'a Special {
 }
 
 /// The points of the curve of a special point over two parameters, at least ten.
-pub(crate) fn curve(map: &impl Family, start: &Special, over: [&Along; 2]) -> Vec<CurvePoint> {
+pub(crate) fn curve(
+    map: &impl ParametricMap,
+    start: &Special,
+    over: [&ParameterRange; 2],
+) -> Vec<CurvePoint> {
     let options = ContinuationOptions::default();
     let curve = follow_curve(map, start, over, &options, &mut |_| true).unwrap();
     assert!(curve.points.len() >= 10, "{:?}", curve.ends);
@@ -106,7 +111,7 @@ pub(crate) fn exponents(
         let columns = spectrum.start_columns();
         system.columns_mut(&mut start.x).copy_from_slice(&columns);
         Climb {
-            leg: Some(Leg {
+            segment: Some(Segment {
                 system: system.clone(),
                 start,
                 periods: transient + periods,
@@ -125,14 +130,14 @@ pub(crate) fn exponents(
 }
 
 struct Climb {
-    leg: Option<Leg>,
+    segment: Option<Segment>,
     transient: u64,
     spectrum: Spectrum,
 }
 
 impl Task for Climb {
-    fn begin(&mut self) -> Option<Leg> {
-        self.leg.take()
+    fn begin(&mut self) -> Option<Segment> {
+        self.segment.take()
     }
 
     fn sample(&mut self, sample: &Sample<'_>) -> bool {
@@ -147,7 +152,7 @@ impl Task for Climb {
         self.spectrum.feed(columns).unwrap();
     }
 
-    fn end(&mut self, end: End) -> Option<Leg> {
+    fn end(&mut self, end: End) -> Option<Segment> {
         assert_eq!(end.status, Status::Completed);
         None
     }

@@ -2,7 +2,7 @@
 
 use faer::{Mat, c64};
 use saltus_hybrid::{System, SystemBuilder};
-use saltus_orbits::{Family, Shot};
+use saltus_orbits::{MapRequest, ParametricMap};
 
 use super::machine::{along, both, kinds, map, orbit, place};
 
@@ -56,7 +56,7 @@ fn characteristic_values_have_multipliers_of_one() {
         let values = characteristic_values(0.0, 5.0, odd);
         for (&a, tabled) in values.iter().zip(table) {
             assert!((a - tabled).abs() < 1e-8, "{a} {tabled}");
-            let shot = Shot {
+            let shot = MapRequest {
                 parameters: &[a],
                 start: &place(&[], &[0.0, 0.0]),
                 derivative: true,

@@ -7,7 +7,7 @@
 //! would be a constant of the motion with a multiplier 1 of its own, and no orbit would be isolated.
 
 use saltus_hybrid::{System, SystemBuilder, Transition};
-use saltus_orbits::{Family, Image, Place, Shot, SpecialKind};
+use saltus_orbits::{Image, MapPoint, MapRequest, ParametricMap, SpecialKind};
 
 use super::independent::{bisected, newton, rk4};
 use super::machine::{along, both, curve, kinds, map, only, orbit, place, settled};
@@ -43,7 +43,7 @@ fn valve([q, kappa]: [f64; 2], seat: f64) -> Result<System, String> {
     b.build(INTERVAL).map_err(|error| error.to_string())
 }
 
-fn at_rest(x: f64) -> Place {
+fn at_rest(x: f64) -> MapPoint {
     let s = (x + DELTA).sqrt();
     place(&[0], &[x, 0.0, s, 1.0 / s])
 }
@@ -93,9 +93,9 @@ fn the_valve_begins_to_flutter_at_the_hopf_point() {
 }
 
 /// The next two cycles of a motion, with what happens on the way: 12 intervals.
-fn cycles(map: &impl Family, q: f64, mut at: Place) -> Vec<Image> {
+fn cycles(map: &impl ParametricMap, q: f64, mut at: MapPoint) -> Vec<Image> {
     let next = |_| {
-        let shot = Shot {
+        let shot = MapRequest {
             parameters: &[q, KAPPA],
             start: &at,
             derivative: true,

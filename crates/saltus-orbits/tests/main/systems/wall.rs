@@ -2,7 +2,7 @@
 //! the wall that it grazes is.
 
 use saltus_hybrid::{System, SystemBuilder, Transition, testing};
-use saltus_orbits::{Branch, End, Family, Multiplier, Special};
+use saltus_orbits::{Branch, End, Multiplier, ParametricMap, Special};
 
 use super::independent::steady;
 use super::machine::{along, both, curve, map, only, orbit, place};
@@ -52,7 +52,7 @@ fn amplitude(omega: f64) -> f64 {
 }
 
 /// The branch from a wall out of reach to one at 2, where there is one switch, or two, in a period.
-fn towards(map: &impl Family, switches: usize) -> Branch {
+fn towards(map: &impl ParametricMap, switches: usize) -> Branch {
     let start = place(&[0], &steady(ZETA, 1.0, OMEGA, 0.0));
     let branch = both(map, &orbit(map, &[3.0, OMEGA], start), &along(0, 2.0, 3.2));
     assert_eq!(branch.ends, [End::RangeEnd, End::RangeEnd]);
@@ -87,7 +87,7 @@ fn a_soft_wall_is_grazed_at_the_amplitude_and_the_branch_goes_on() {
 }
 
 /// The curve of a grazing over wall and frequency begins at the wall, and keeps 1e-9 off it.
-fn assert_curve(map: &impl Family, grazing: &Special) {
+fn assert_curve(map: &impl ParametricMap, grazing: &Special) {
     let over = [&along(0, 2.0, 3.2), &along(1, 0.7, 0.9)];
     for point in curve(map, grazing, over) {
         let [sigma, omega] = point.parameters;

@@ -3,9 +3,9 @@
 use crate::continuation::Point;
 use crate::locate::{Aim, NARROW, ROUNDS};
 use crate::path::Path;
-use crate::{Family, Orbit, events};
+use crate::{Orbit, ParametricMap, events};
 
-impl<F: Family + ?Sized> Path<'_, F> {
+impl<F: ParametricMap + ?Sized> Path<'_, F> {
     /// Part of the way between two points at which the guard that makes their switches differ comes to zero: its value on
     /// the side without the switches is extrapolated, alternately a little further and less far, so that
     /// the bracket shrinks from both sides. Every third round bisects in any case.

@@ -5,7 +5,7 @@ use crate::ending::Ending;
 use crate::interrupt;
 use crate::output::{self, tell};
 use crate::progress::Bars;
-use saltus_commands::{Citation, Context, Kept, bibtex};
+use saltus_commands::{Citation, RunContext, SavedResult, bibtex};
 use serde::Serialize;
 
 /// The JSON document of `cite`.
@@ -19,7 +19,7 @@ struct Works<'a> {
 }
 
 pub(crate) fn cite(args: &CiteArgs) -> Result<(), Ending> {
-    let kept = Kept::open(&args.result)?;
+    let kept = SavedResult::open(&args.result)?;
     let citations = kept.citations();
     if !args.json {
         return output::print(&bibtex(&citations));
@@ -35,13 +35,13 @@ pub(crate) fn cite(args: &CiteArgs) -> Result<(), Ending> {
 
 pub(crate) fn rerun(args: &RerunArgs) -> Result<(), Ending> {
     let bars = Bars::new(args.quiet);
-    let context = Context {
+    let context = RunContext {
         threads: args.threads.threads.map_or(0, usize::from),
         stop: interrupt::flag(),
         watch: &bars,
         keep: None,
     };
-    let rerun = Kept::open(&args.result)?.rerun(args.out.as_deref(), &context)?;
+    let rerun = SavedResult::open(&args.result)?.rerun(args.out.as_deref(), &context)?;
     tell(args.json, args.quiet, &rerun)?;
     rerun
         .shortfall()

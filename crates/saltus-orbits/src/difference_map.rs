@@ -1,7 +1,7 @@
 //! A family whose derivative is taken by differences: for maps that have none of their own, and as a second
 //! opinion on those that do.
 
-use crate::{Family, Image, Lost, Matrix, Place, Shot};
+use crate::{Image, MapPoint, MapRequest, Matrix, NoImage, ParametricMap};
 
 /// Any family with its derivative by central differences of step h.
 ///
@@ -13,14 +13,14 @@ pub struct Differences<'a, F: ?Sized> {
     step: f64,
 }
 
-impl<'a, F: Family + ?Sized> Differences<'a, F> {
+impl<'a, F: ParametricMap + ?Sized> Differences<'a, F> {
     /// `family` with differences of `step` in each state.
     pub fn new(family: &'a F, step: f64) -> Self {
         Self { family, step }
     }
 
     /// The start, then each of its states moved up and down.
-    fn around(&self, start: &Place) -> Vec<Place> {
+    fn around(&self, start: &MapPoint) -> Vec<MapPoint> {
         let moved = |i: usize, by: f64| {
             let mut place = start.clone();
             place.x[i] += by;
@@ -30,7 +30,7 @@ impl<'a, F: Family + ?Sized> Differences<'a, F> {
         std::iter::once(start.clone()).chain(sides).collect()
     }
 
-    fn assemble(&self, images: Vec<Result<Image, Lost>>) -> Result<Image, Lost> {
+    fn assemble(&self, images: Vec<Result<Image, NoImage>>) -> Result<Image, NoImage> {
         let mut images = images.into_iter().collect::<Result<Vec<_>, _>>()?;
         let sides = images.split_off(1);
         let mut image = images.remove(0);
@@ -43,35 +43,35 @@ impl<'a, F: Family + ?Sized> Differences<'a, F> {
     }
 }
 
-impl<F: Family + ?Sized> Family for Differences<'_, F> {
+impl<F: ParametricMap + ?Sized> ParametricMap for Differences<'_, F> {
     fn dimension(&self) -> usize {
         self.family.dimension()
     }
 
-    fn images(&self, shots: &[Shot<'_>]) -> Vec<Result<Image, Lost>> {
+    fn images(&self, shots: &[MapRequest<'_>]) -> Vec<Result<Image, NoImage>> {
         let starts = shots.iter().map(|shot| match shot.derivative {
             true => self.around(shot.start),
             false => vec![shot.start.clone()],
         });
-        let starts: Vec<Vec<Place>> = starts.collect();
+        let starts: Vec<Vec<MapPoint>> = starts.collect();
         let plain = |(shot, start)| {
-            let shot: &Shot<'_> = shot;
-            Shot {
+            let shot: &MapRequest<'_> = shot;
+            MapRequest {
                 derivative: false,
                 start,
                 ..*shot
             }
         };
         let pairs = shots.iter().zip(&starts);
-        let all: Vec<Shot<'_>> = pairs
+        let all: Vec<MapRequest<'_>> = pairs
             .flat_map(|(shot, starts)| starts.iter().map(move |start| plain((shot, start))))
             .collect();
         let mut images = self.family.images(&all).into_iter();
-        let answer = |(shot, starts): (&Shot<'_>, &Vec<Place>)| {
+        let answer = |(shot, starts): (&MapRequest<'_>, &Vec<MapPoint>)| {
             let mut mine: Vec<_> = images.by_ref().take(starts.len()).collect();
             match shot.derivative {
                 true => self.assemble(mine),
-                false => mine.pop().unwrap_or(Err(Lost::Interrupted)),
+                false => mine.pop().unwrap_or(Err(NoImage::Interrupted)),
             }
         };
         shots.iter().zip(&starts).map(answer).collect()

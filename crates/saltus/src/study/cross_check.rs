@@ -7,8 +7,8 @@
 //! the number of switches changes, by bisection.
 
 use saltus_orbits::{
-    Branch, Crossing, Differences, Family, Multiplier, NewtonOptions, Orbit, Place, Special,
-    SpecialKind, find_orbit,
+    Branch, Crossing, Differences, MapPoint, Multiplier, NewtonOptions, Orbit, ParametricMap,
+    Special, SpecialKind, find_orbit,
 };
 
 /// Step of the differences: 4e-12 of curvature, and 1e-14 of noise over 2e-6. Longer ones reach across grazings that
@@ -33,7 +33,7 @@ const ROUNDS: usize = 40;
 
 /// The parameter `index` at which what `special` of `branch` says happens, as the second method finds it near that point;
 /// `range` is the length of the range. `None` where it finds nothing near, and for switches that change order.
-pub fn second_opinion<F: Family>(
+pub fn second_opinion<F: ParametricMap>(
     family: &F,
     branch: &Branch,
     special: &Special,
@@ -69,9 +69,14 @@ struct Scene<'a, F> {
     range: f64,
 }
 
-impl<F: Family> Scene<'_, F> {
+impl<F: ParametricMap> Scene<'_, F> {
     /// The orbit at a value of the parameter, near `places`.
-    fn solve<G: Family>(&self, family: &G, value: f64, places: &[Place]) -> Option<Orbit> {
+    fn solve<G: ParametricMap>(
+        &self,
+        family: &G,
+        value: f64,
+        places: &[MapPoint],
+    ) -> Option<Orbit> {
         let mut parameters = self.special.orbit.parameters.clone();
         parameters[self.index] = value;
         find_orbit(family, &parameters, places, &NewtonOptions::default()).ok()
@@ -173,8 +178,8 @@ fn at_zero(places: &[f64], values: &[f64]) -> f64 {
 }
 
 /// Places a part of the way from some to others.
-fn mixed(from: &[Place], to: &[Place], part: f64) -> Vec<Place> {
-    let between = |(a, b): (&Place, &Place)| Place {
+fn mixed(from: &[MapPoint], to: &[MapPoint], part: f64) -> Vec<MapPoint> {
+    let between = |(a, b): (&MapPoint, &MapPoint)| MapPoint {
         modes: a.modes.clone(),
         x: a.x
             .iter()

@@ -5,7 +5,7 @@ mod rerun;
 pub use rerun::Rerun;
 
 use crate::citations::{Citation, works};
-use crate::failure::{Failure, told};
+use crate::failure::{CommandError, told};
 use crate::request::Request;
 use saltus_config::Study;
 use saltus_results::folder::MARKER;
@@ -23,33 +23,33 @@ const AGAIN: &str = "put the files back as they were, or compute the result anew
 
 /// A folder of results, read.
 #[derive(Debug)]
-pub struct Kept {
+pub struct SavedResult {
     folder: PathBuf,
     manifest: Manifest,
     request: Request,
     study: Study,
 }
 
-impl Kept {
+impl SavedResult {
     /// Reads the manifest and the study of a result: `result` is its folder, or a file in that.
     ///
     /// # Errors
-    /// [`Failure::Results`] if there is no result, or its manifest cannot be read; [`Failure::Work`] if it is damaged,
-    /// the study in it was altered, or is not one of this version; [`Failure::Refused`] if no question was asked.
-    pub fn open(result: &Path) -> Result<Self, Failure> {
+    /// [`CommandError::Results`] if there is no result, or its manifest cannot be read; [`CommandError::Work`] if it is damaged,
+    /// the study in it was altered, or is not one of this version; [`CommandError::Refused`] if no question was asked.
+    pub fn open(result: &Path) -> Result<Self, CommandError> {
         let folder = home(result);
         let manifest = Manifest::read(&folder)?;
         let shown = path(&folder);
         let asked = &manifest.about["request"];
         if asked.is_null() {
-            return Err(Failure::refused(
+            return Err(CommandError::refused(
                 format!("`{shown}` answers no question: it holds a study alone"),
                 "commands such as simulate and map write results by --out",
             ));
         }
         let request = Request::deserialize(asked).map_err(|error| {
             let version = &manifest.version;
-            Failure::work(
+            CommandError::work(
                 format!("what was asked in `{shown}` by saltus {version} cannot be read: {error}"),
                 "the version that wrote it can",
             )
@@ -79,14 +79,14 @@ impl Kept {
     }
 
     /// Whether all files are as they were written.
-    fn intact(&self) -> Result<(), Failure> {
+    fn intact(&self) -> Result<(), CommandError> {
         let problems = self.manifest.verify(&self.folder);
         if problems.is_empty() {
             return Ok(());
         }
         let list = told(&problems);
         let shown = path(&self.folder);
-        Err(Failure::work(
+        Err(CommandError::work(
             format!(
                 "`{shown}` is not as it was written, so comparing with it means nothing:{list}"
             ),
@@ -106,7 +106,7 @@ fn home(path: &Path) -> PathBuf {
 }
 
 /// The study of a result, if it is still that: another comment does no harm, another number does.
-fn study(folder: &Path, manifest: &Manifest) -> Result<Study, Failure> {
+fn study(folder: &Path, manifest: &Manifest) -> Result<Study, CommandError> {
     let file = folder.join(STUDY);
     let bytes = ordinary::read(&file, ordinary::TEXT).map_err(|source| ResultsError::Io {
         action: "read",
@@ -118,7 +118,7 @@ fn study(folder: &Path, manifest: &Manifest) -> Result<Study, Failure> {
     let study = saltus_config::read(&file.display().to_string(), &bytes[..], &[]);
     match study {
         Ok(study) if same_bits || manifest.about["study_sha256"] == study.hash() => Ok(study),
-        Err(error) if same_bits => Err(Failure::work(
+        Err(error) if same_bits => Err(CommandError::work(
             format!(
                 "`{}`, by saltus {}, is no study of this version: {error}",
                 path(&file),
@@ -126,7 +126,7 @@ fn study(folder: &Path, manifest: &Manifest) -> Result<Study, Failure> {
             ),
             "the version that wrote it reads it",
         )),
-        _ => Err(Failure::work(
+        _ => Err(CommandError::work(
             format!(
                 "`{}` was altered: it is not the study of this result",
                 path(&file)

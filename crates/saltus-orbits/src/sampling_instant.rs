@@ -5,7 +5,7 @@ use crate::continuation::Point;
 use crate::events::Switch;
 use crate::path::Path;
 use crate::shooting::Guess;
-use crate::{Family, Orbit, Place, Shot, events};
+use crate::{MapPoint, MapRequest, Orbit, ParametricMap, events};
 
 /// A switch this near to the sampling instant is at it (parts of a period). The last point before a jump lies
 /// within the smallest step of it.
@@ -22,7 +22,7 @@ pub(crate) fn at_instant(orbit: &Orbit) -> bool {
     crossings.any(|crossing| crossing.at.min(1.0 - crossing.at) < AT_INSTANT)
 }
 
-impl<F: Family + ?Sized> Path<'_, F> {
+impl<F: ParametricMap + ?Sized> Path<'_, F> {
     /// The orbit a little ahead with a switch on the other side of the sampling instant, oriented onwards.
     pub(crate) fn across_instant(&self, last: &Point) -> Option<Point> {
         if !at_instant(&last.orbit) {
@@ -49,7 +49,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
 
     /// Images of the last place of an orbit, moved along each axis, for which a switch comes before the sampling
     /// instant that came after it, or after it instead of before: they lie beyond the jump.
-    fn jumped(&self, last: &Point, offset: f64) -> Vec<Place> {
+    fn jumped(&self, last: &Point, offset: f64) -> Vec<MapPoint> {
         let orbit = &last.orbit;
         let (Some(place), Some(switches)) = (orbit.places.last(), orbit.crossings.last()) else {
             return Vec::new();
@@ -60,8 +60,8 @@ impl<F: Family + ?Sized> Path<'_, F> {
             start.x[i / 2] += if i % 2 == 0 { offset } else { -offset };
             start
         });
-        let starts: Vec<Place> = starts.collect();
-        let shots = starts.iter().map(|start| Shot {
+        let starts: Vec<MapPoint> = starts.collect();
+        let shots = starts.iter().map(|start| MapRequest {
             parameters: &orbit.parameters,
             start,
             derivative: true,
@@ -76,7 +76,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
     fn motion(&self, guess: &Guess) -> Option<Guess> {
         let mut motion = guess.clone();
         for i in 1..guess.places.len() {
-            let shot = Shot {
+            let shot = MapRequest {
                 parameters: &guess.parameters,
                 start: &motion.places[i - 1],
                 derivative: false,

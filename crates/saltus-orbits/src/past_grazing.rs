@@ -6,7 +6,7 @@ use crate::orbit::shortest_period;
 use crate::path::Path;
 use crate::shooting::{Guess, Shooting};
 use crate::special::JUMP;
-use crate::{Family, Shot, Special, SpecialKind, Touch, events};
+use crate::{MapRequest, ParametricMap, Special, SpecialKind, Touch, events};
 
 /// Offsets of the parameter from the grazing, in units of its range: with a square root in the map an
 /// orbit may lie as far as the root of the first.
@@ -18,7 +18,7 @@ const ITERATES: usize = 4;
 /// An orbit found beyond must lie within this many square roots of the offset.
 const NEAR: f64 = 10.0;
 
-impl<F: Family + ?Sized> Path<'_, F> {
+impl<F: ParametricMap + ?Sized> Path<'_, F> {
     /// Unit whose touch comes to zero ahead, if the last two points go on like that, and the distance to it.
     pub(crate) fn to_touch(&self, points: &[Point]) -> Option<(usize, f64)> {
         let [.., before, last] = points else {
@@ -140,7 +140,7 @@ impl<F: Family + ?Sized> Path<'_, F> {
         let mut next = guess.clone();
         let mut at = guess.places[guess.places.len() - 1].clone();
         for place in &mut next.places {
-            let shot = Shot {
+            let shot = MapRequest {
                 parameters: &guess.parameters,
                 start: &at,
                 derivative: false,

@@ -6,7 +6,7 @@
 
 use std::sync::OnceLock;
 
-use saltus_hybrid::{End, Leg, Method, Point, Sample, Status, System, Task, integrate_stream};
+use saltus_hybrid::{End, Method, Point, Sample, Segment, Status, System, Task, integrate_stream};
 use saltus_orbits::{Criteria, MotionKind, Samples, Spectrum, Verdict, judge};
 
 use super::attractor::{Found, Lost};
@@ -121,7 +121,7 @@ where
     F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
 {
     /// Everything for the run, or why there is none.
-    fn prepare(&self) -> Result<(Motion, Leg), Refusal> {
+    fn prepare(&self) -> Result<(Motion, Segment), Refusal> {
         let arrival = self.found.as_ref().and_then(|found| found.arrival.as_ref());
         let point = &arrival.ok_or(Refusal::Never)?.point;
         let (model, _) = (self.start_at)(self.number).map_err(|_| Refusal::Never)?;
@@ -147,12 +147,12 @@ where
             verdict: None,
             lost: false,
         };
-        let leg = Leg {
+        let segment = Segment {
             system,
             start,
             periods: ALIGNMENT + self.search.exponent,
         };
-        Ok((motion, leg))
+        Ok((motion, segment))
     }
 }
 
@@ -168,11 +168,11 @@ impl<F> Task for Ascent<'_, F>
 where
     F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
 {
-    fn begin(&mut self) -> Option<Leg> {
+    fn begin(&mut self) -> Option<Segment> {
         match self.prepare() {
-            Ok((motion, leg)) => {
+            Ok((motion, segment)) => {
                 self.motion = Some(motion);
-                Some(leg)
+                Some(segment)
             }
             Err(refusal) => {
                 self.done = matches!(refusal, Refusal::Never);
@@ -207,7 +207,7 @@ where
         }
     }
 
-    fn end(&mut self, end: End) -> Option<Leg> {
+    fn end(&mut self, end: End) -> Option<Segment> {
         let mut motion = self.motion.take()?;
         let found = self.found.as_mut()?;
         self.done = true;

@@ -1,11 +1,11 @@
 //! A result computed again, beside the one that was kept.
 
-use super::Kept;
+use super::SavedResult;
 use crate::about::{about, solves};
 use crate::answer::{Answer, Told, stream_json};
-use crate::context::Context;
+use crate::context::RunContext;
 use crate::destination::Destination;
-use crate::failure::Failure;
+use crate::failure::CommandError;
 use crate::request::Request;
 use saltus_results::shown::{path, printable};
 use saltus_results::{Comparison, Staging, compare};
@@ -42,14 +42,14 @@ pub struct Rerun {
     pub version: &'static str,
 }
 
-impl Kept {
+impl SavedResult {
     /// Asks the same of the same study again and compares. The new result is kept in `out`; without it it lies in a
     /// temporary folder beside the old one until both are compared.
     ///
     /// # Errors
-    /// [`Failure::Work`] if a file of the result is missing or altered, or the earlier result it began with is gone;
+    /// [`CommandError::Work`] if a file of the result is missing or altered, or the earlier result it began with is gone;
     /// others as [`Request::ask`] and [`Destination`].
-    pub fn rerun(&self, out: Option<&Path>, context: &Context) -> Result<Rerun, Failure> {
+    pub fn rerun(&self, out: Option<&Path>, context: &RunContext) -> Result<Rerun, CommandError> {
         self.intact()?;
         self.origin_is_there()?;
         let Some(out) = out else {
@@ -64,7 +64,7 @@ impl Kept {
         };
         let real = |folder: &Path| fs::canonicalize(folder).ok();
         if real(out).is_some_and(|out| Some(out) == real(&self.folder)) {
-            return Err(Failure::refused(
+            return Err(CommandError::refused(
                 format!("--out {} is the result itself", path(out)),
                 "another folder, or none",
             ));
@@ -77,9 +77,9 @@ impl Kept {
     fn rerun_in(
         &self,
         dir: &Path,
-        context: &Context,
-        store: impl Fn(&Destination, &dyn Answer) -> Result<(), Failure>,
-    ) -> Result<Rerun, Failure> {
+        context: &RunContext,
+        store: impl Fn(&Destination, &dyn Answer) -> Result<(), CommandError>,
+    ) -> Result<Rerun, CommandError> {
         let request = &self.request;
         let study = request.study(&self.study)?;
         let destination = Destination {
@@ -105,11 +105,11 @@ impl Kept {
         })
     }
 
-    fn origin_is_there(&self) -> Result<(), Failure> {
+    fn origin_is_there(&self) -> Result<(), CommandError> {
         match &self.request {
             Request::Continue {
                 origin: Some(origin),
-            } if !origin.from.is_dir() => Err(Failure::work(
+            } if !origin.from.is_dir() => Err(CommandError::work(
                 format!(
                     "`{}` begins at {} of an earlier result, and `{}` is not there",
                     path(&self.folder),
@@ -162,13 +162,13 @@ impl Kept {
     }
 }
 
-fn beside(folder: &Path) -> Result<Staging, Failure> {
+fn beside(folder: &Path) -> Result<Staging, CommandError> {
     // `.` has no parent by name
     let parent = fs::canonicalize(folder).ok();
     let parent = parent.as_deref().and_then(Path::parent).unwrap_or(folder);
     Staging::folder(parent, folder).map_err(|error| {
         let parent = path(parent);
-        Failure::work(
+        CommandError::work(
             format!("the new result cannot wait in `{parent}` for its comparison: {error}"),
             "--out says where it may be kept",
         )
@@ -210,8 +210,8 @@ impl Told for Rerun {
 
 impl Rerun {
     /// Why the result is not what it was, if so.
-    pub fn shortfall(&self) -> Option<Failure> {
+    pub fn shortfall(&self) -> Option<CommandError> {
         let message = format!("computed again, `{}` is not the same bits", self.result);
-        (!self.identical).then(|| Failure::computation(message))
+        (!self.identical).then(|| CommandError::computation(message))
     }
 }

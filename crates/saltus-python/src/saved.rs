@@ -3,7 +3,7 @@
 use crate::error;
 use crate::running::{Board, Listener, aside, attended};
 use pyo3::prelude::*;
-use saltus_commands::{Context, Kept, Told, bibtex};
+use saltus_commands::{RunContext, SavedResult, Told, bibtex};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use std::sync::Arc;
 #[pyfunction]
 pub(crate) fn cite(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     aside(py, move || {
-        let kept = Kept::open(&path).map_err(|failure| error::of(&failure))?;
+        let kept = SavedResult::open(&path).map_err(|failure| error::of(&failure))?;
         Ok(bibtex(&kept.citations()))
     })
 }
@@ -29,13 +29,13 @@ pub(crate) fn rerun(
     let board: Arc<Board> = Arc::default();
     let watch = Arc::clone(&board);
     attended(py, &progress, &board, move |stop| {
-        let context = Context {
+        let context = RunContext {
             threads,
             stop: stop.clone(),
             watch: &*watch,
             keep: None,
         };
-        let rerun = Kept::open(&path).and_then(|kept| kept.rerun(out.as_deref(), &context));
+        let rerun = SavedResult::open(&path).and_then(|kept| kept.rerun(out.as_deref(), &context));
         let rerun = rerun.map_err(|failure| error::of(&failure))?;
         let mut document = Vec::new();
         // a vector takes everything
