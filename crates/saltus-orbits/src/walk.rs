@@ -35,8 +35,8 @@ const ROUND: usize = 5;
 const SAME: f64 = 1e-6;
 
 impl<F: ParametricMap + ?Sized> Path<'_, F> {
-    /// A branch from a point along its tangent. A branch is `origin` at a special point of another one, which
-    /// is none of its own; where it comes back there it is closed.
+    /// A branch from a point along its tangent. Its `origin`, if it has one, is a special point of another branch and none
+    /// of its own; where the branch comes back there it is closed.
     pub(crate) fn walk(
         &self,
         seed: Point,

@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let model = setup.model()?;
         let run = simulate(
             &model,
-            &model.start(1.0, 0.5),
+            &model.start_each(&[1.0, 1.0], &[0.5, 0.5]),
             600,
             0,
             1,

@@ -86,8 +86,8 @@ impl Plate {
     /// each other and the plate rests.
     ///
     /// # Errors
-    /// Those of [`Plate::check`] and [`Jumper::check`]; [`PhysicsError::OffThePlate`], [`PhysicsError::TooManyJumpers`], and
-    /// [`PhysicsError::Algebra`] if the eigenvalues cannot be computed.
+    /// Those of [`Plate::check`] and [`Jumper::check`]; [`PhysicsError::OffThePlate`] and
+    /// [`PhysicsError::TooManyJumpers`]; [`PhysicsError::Algebra`] if the eigenvalues cannot be computed.
     pub fn occupied(&self, jumpers: &[Jumper]) -> Result<OccupiedModes, PhysicsError> {
         self.check()?;
         Jumper::check_all(jumpers, self)?;

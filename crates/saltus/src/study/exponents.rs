@@ -93,8 +93,8 @@ impl Measurement {
 }
 
 /// The exponents of the motion that `start` leads to, from replicas: pieces of it, one after the other, whose tangents
-/// are followed side by side. No two of them have periods in common, and all are on one attractor whatever others there are.
-/// Together they are one long record, which tells what changes more slowly than one piece is long.
+/// are followed side by side. No two of them have periods in common, and all are on one attractor whatever others there
+/// are. Together they are one long record, which tells what changes more slowly than one piece is long.
 ///
 /// If the motion has come to a cycle, [`LyapunovRun::cycle`] is that.
 ///

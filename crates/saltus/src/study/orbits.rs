@@ -13,8 +13,8 @@ use super::trajectory::{History, TrajectorySwitch, simulate};
 use super::{Control, StudyError};
 use crate::model::{Contact, Model, ModelError, Section};
 
-/// Method by which orbits are integrated, whatever the study says of other motions: 1e-13 leaves residuals of 1e-12, and
-/// special points to some 1e-10.
+/// Method by which orbits are integrated, whatever the study says of other motions: 1e-13 leaves residuals of
+/// 1e-12, and special points to some 1e-10.
 pub const ORBIT_METHOD: Method = Method::Taylor {
     tolerance: 1e-13,
     order: 20,
