@@ -15,13 +15,13 @@ fn text(what: &str, request: &Request, tables: &str) -> String {
         what => format!("{what}\n\n"),
     };
     text += &format!(
-        "Data ({name}.nc in --out for xarray.open_dataset, arrays in Python; single values and\nlists also in JSON: \
-         --json, and {name}.json in --out; null: no value):\n"
+        "Data, in {name}.nc (--out; xarray.open_dataset) and as arrays in Python; single\nvalues and lists also in \
+         JSON (--json, and {name}.json), null where there is none:\n"
     );
     for quantity in request.quantities() {
         text += &entry(&quantity);
     }
-    text + "Tables:\n" + tables
+    text + "Tables:\n  " + tables
 }
 
 /// Name, meaning, unit and words, in lines.

@@ -118,8 +118,8 @@ impl Request {
             Self::Basins { .. } => return [q::BASINS, &Self::Map.quantities()].concat(),
             Self::Orbit => &[
                 &[q::PERIOD],
-                q::ORBIT,
                 q::ORBITS,
+                q::ORBIT,
                 LOADS,
                 q::BASE_MOTION,
                 q::SECTION,

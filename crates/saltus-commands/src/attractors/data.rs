@@ -1,7 +1,7 @@
 //! What was found, described once.
 
 use super::{Found, ranges};
-use crate::data::{about, coordinate, name, padded, parameter, values, whole, wholes};
+use crate::data::{Of, about, coordinate, name, padded, parameter, values, whole, wholes, without};
 use crate::plane::Loss;
 use crate::quantities as q;
 use saltus::orbits::Exponent;
@@ -215,9 +215,6 @@ fn rows(set: Dataset, found: &Found) -> Dataset {
         )
 }
 
-/// A quantity, and how to take it.
-pub(super) type Of<T, N> = (Quantity, fn(&T) -> N);
-
 /// Counts of first states, their shares and the ends of their intervals.
 fn shares(set: Dataset, over: &[&str], named: [Quantity; 4], all: &[BasinFraction]) -> Dataset {
     let [starts, shares, low, high] = named;
@@ -226,12 +223,6 @@ fn shares(set: Dataset, over: &[&str], named: [Quantity; 4], all: &[BasinFractio
         .variable(shares.over(over, part(0)))
         .variable(low.over(over, part(1)))
         .variable(high.over(over, part(2)))
-}
-
-/// Adds columns whose titles leave out a prefix of their variables.
-pub(super) fn without(prefix: &str, table: Table, titles: &[&str]) -> Table {
-    let add = |table: Table, title: &&str| table.titled(*title, format!("{prefix}{title}"));
-    titles.iter().fold(table, add)
 }
 
 /// Part of the first states, and its 95 % confidence interval.

@@ -1,8 +1,7 @@
 //! Where attractors begin and end along the parameter, described once, and loops of hysteresis.
 
 use super::Found;
-use super::data::{Of, without};
-use crate::data::{values, wholes};
+use crate::data::{Of, values, wholes, without};
 use crate::quantities as q;
 use saltus::study::{AttractorRange, Hysteresis, Range, RangeEnd};
 use saltus_results::{Dataset, Table};

@@ -9,7 +9,7 @@ use crate::quantities as q;
 use crate::words::capitalized;
 use saltus::model::Model;
 use saltus_config::{Parameter, Study};
-use saltus_results::{Dataset, Variable};
+use saltus_results::{Dataset, Quantity, Table, Variable};
 use std::f64::consts::TAU;
 
 /// A dataset that says where it comes from.
@@ -105,6 +105,15 @@ pub(crate) fn each_number(count: usize) -> Vec<String> {
 pub(crate) fn each_term(model: &Model) -> Vec<String> {
     let terms = model.setup().plate.modes.w.iter();
     terms.map(|w| format!("_{}_{}", w.m, w.n)).collect()
+}
+
+/// A quantity, and how to take it.
+pub(crate) type Of<T, N> = (Quantity, fn(&T) -> N);
+
+/// Adds columns whose titles leave out a prefix of their variables.
+pub(crate) fn without(prefix: &str, table: Table, titles: &[&str]) -> Table {
+    let add = |table: Table, title: &&str| table.titled(*title, format!("{prefix}{title}"));
+    titles.iter().fold(table, add)
 }
 
 /// A unit as UDUNITS spells it.

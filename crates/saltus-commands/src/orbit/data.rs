@@ -53,9 +53,9 @@ fn multipliers(set: Dataset, all: &[Multiplier]) -> Dataset {
 /// What each person does on the way around.
 fn jumpers(set: Dataset, found: &Found) -> Dataset {
     let seen = &found.portrait;
-    let most = seen.landing_phases.iter().map(Vec::len).max();
+    let most = seen.touch_down_phases.iter().map(Vec::len).max();
     let most = most.unwrap_or(0);
-    let phases = seen.landing_phases.iter();
+    let phases = seen.touch_down_phases.iter();
     let phases = phases.flat_map(|phases| crate::data::padded(phases, most));
     set.dimension("touch_down", most)
         .ragged("touch_down")

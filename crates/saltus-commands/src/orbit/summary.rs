@@ -43,7 +43,7 @@ pub(super) fn text(found: &Found) -> String {
             [] => "never".to_owned(),
             all => list(all.iter().map(|p| format!("{p:.4}"))),
         };
-        let touch_downs = each(&seen.landing_phases, phases);
+        let touch_downs = each(&seen.touch_down_phases, phases);
         line("lands at", format!("Omega t = {touch_downs} (rad)"));
     }
     let of = match orbit.multipliers.len() {

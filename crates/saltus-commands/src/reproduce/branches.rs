@@ -4,9 +4,9 @@ use saltus_paper::{Detail, Diagram, PanelExponents, Transition};
 use saltus_results::{Axis, Branches, Colour, Curves, Figure, Panel};
 
 use super::Results;
+use super::album::Album;
 use super::data::{details, panels};
 use super::figures::{DAMPING, HEIGHT, points};
-use super::page::Album;
 use crate::failure::CommandError;
 use crate::kinds;
 

@@ -1,5 +1,6 @@
 //! `saltus reproduce`: the paper, figure by figure, with our numbers beside its words.
 
+mod album;
 mod branches;
 mod data;
 mod facts;

@@ -2,8 +2,9 @@
 
 use saltus::physics::FrequencyReference::{Free, Occupied};
 use saltus_paper::Verdict;
-use saltus_results::{Fact, Figure, FigureBlock, Image, Page, Verdict as Badge};
+use saltus_results::{Fact, Page, Verdict as Badge};
 
+use super::album::Album;
 use super::data::came_to;
 use super::facts::{QUICK, RegimeRow, Report};
 use super::{Results, branches, figures};
@@ -38,53 +39,6 @@ pub(super) fn write(
     method(&mut album, results);
     let Album { folder, page } = album;
     folder.text("index.html", &page.render())
-}
-
-/// A page that is being filled together with its folder.
-pub(super) struct Album<'a> {
-    pub(super) folder: &'a mut dyn Store,
-    page: Page,
-}
-
-impl Album<'_> {
-    pub(super) fn with(&mut self, change: impl FnOnce(Page) -> Page) {
-        let page = std::mem::replace(&mut self.page, Page::new(""));
-        self.page = change(page);
-    }
-
-    pub(super) fn section(&mut self, title: &str) {
-        self.with(|page| page.section(title));
-    }
-
-    pub(super) fn say(&mut self, paragraphs: &[&str]) {
-        for text in paragraphs {
-            self.with(|page| page.paragraph(text));
-        }
-    }
-
-    /// Puts a figure into the folder (SVG, PNG) and onto the page.
-    pub(super) fn show(
-        &mut self,
-        name: &str,
-        figure: &Figure,
-        caption: &str,
-        data: &[(&str, &str)],
-    ) -> Result<(), CommandError> {
-        self.folder.figure(name, figure)?;
-        let (svg, png) = (format!("{name}.svg"), format!("{name}.png"));
-        let mut files = vec![("SVG", svg.as_str()), ("PNG", png.as_str())];
-        files.extend(data);
-        let text = figure.svg();
-        self.with(|page| {
-            page.figure(&FigureBlock {
-                caption,
-                alternative: caption,
-                image: Image::Svg(&text),
-                files: &files,
-            })
-        });
-        Ok(())
-    }
 }
 
 fn statements(album: &mut Album<'_>, results: &Results, report: &Report) {

@@ -4,3 +4,4 @@
 mod datasets;
 mod destination;
 mod pieces;
+mod unchanged;

@@ -237,7 +237,7 @@ pub struct Portrait {
     /// Part of the time on the floor, of each body.
     pub contact_ratio: Vec<f64>,
     /// Phases of the drive at each touch-down of each body, in (0, 2 pi] (rad).
-    pub landing_phases: Vec<Vec<f64>>,
+    pub touch_down_phases: Vec<Vec<f64>>,
     /// Largest plate reaction force on each body, in units of its weight.
     pub peak_reaction: Vec<f64>,
     /// The way around, at 2000 equal times per forcing period.
@@ -266,7 +266,7 @@ pub fn portrait(model: &Model, orbit: &Orbit, control: &Control) -> Result<Portr
         let part = turns - turns.ceil() + 1.0;
         part * TAU
     };
-    let landings = |body: usize| {
+    let touch_downs = |body: usize| {
         let lands = |s: &&TrajectorySwitch| s.jumper == body && s.into == Some(Contact::Stance);
         way.switches.iter().filter(lands).map(phase).collect()
     };
@@ -280,7 +280,7 @@ pub fn portrait(model: &Model, orbit: &Orbit, control: &Control) -> Result<Portr
     Ok(Portrait {
         section: orbit.places.iter().map(here).collect(),
         contact_ratio: (0..bodies).map(mean).collect(),
-        landing_phases: (0..bodies).map(landings).collect(),
+        touch_down_phases: (0..bodies).map(touch_downs).collect(),
         peak_reaction: way.peak_reaction,
         switches: way.switches,
         history: way.history,

@@ -52,7 +52,7 @@ fn the_named_cases_of_fig_3_are_orbits() {
         let contact: f64 = run.contact_ratio[900..].iter().map(|r| r[0]).sum::<f64>() / 100.0;
         assert!((contact - seen.contact_ratio[0]).abs() < 1e-6);
         assert_eq!(
-            seen.landing_phases[0].len(),
+            seen.touch_down_phases[0].len(),
             sequence(&model, &found).matches('L').count()
         );
     }
