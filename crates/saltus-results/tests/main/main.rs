@@ -7,5 +7,4 @@ mod figures;
 mod folder;
 mod manifest;
 mod one_writer;
-mod pieces;
 mod tables;

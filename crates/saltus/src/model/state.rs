@@ -52,12 +52,11 @@ impl Model {
     /// in the order of the mode list; those not given are 0, and so are all in-plane ones.
     ///
     /// ```
-    /// // At the height of rest over a plate that is pressed down by a tenth of its thickness: the foot is in the air.
+    /// // the plate in the shape of its first term, a tenth of its thickness
     /// let model = saltus::model::Setup::dias_del_prado(0.3, 1.0).model()?;
     /// let start = model.start_deflected(&[0.0], &[0.0], &[-0.1]);
     /// let section = model.section(&start.modes, &start.x);
     /// assert_eq!(section.w[0], -0.1);
-    /// assert_eq!(section.phase[0], saltus::model::Contact::Flight);
     /// # Ok::<(), saltus::model::ModelError>(())
     /// ```
     ///

@@ -1,4 +1,7 @@
 //! Pieces are whole or reported, belong to one work, and to one process at a time or to all that share.
+//!
+//! A program of its own: a process that another test starts would hold the locks of these for an instant.
+#![allow(clippy::unwrap_used)]
 
 use saltus_results::pieces::{MANIFEST, pieces_beside, work_in};
 use saltus_results::{PieceStore, ResultsError};
@@ -228,7 +231,7 @@ const STUDY: &str = "SALTUS_TEST_STUDY";
 /// A process that opens the folder as shared once its input is closed, and writes 40 pieces.
 fn start(dir: &Path, study: &str) -> Child {
     Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", "pieces::shard", "--ignored"])
+        .args(["--exact", "shard", "--ignored"])
         .env(DIR, dir)
         .env(STUDY, study)
         .stdin(Stdio::piped())
