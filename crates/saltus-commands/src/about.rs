@@ -1,4 +1,4 @@
-//! What the manifest of a result says of it: what was asked, of which model, by which methods, how exact that is.
+//! The manifest of a result: question, model, methods, and their accuracy.
 //!
 //! Equal questions give equal answers on equal arithmetic: no time and no name of a machine.
 
@@ -62,7 +62,7 @@ fn method(method: &Method) -> Value {
     }
 }
 
-/// What decides over the last digits beside the version: a result of another kind of machine need not have the same
+/// Arithmetic, which decides over the last digits beside the version: a result of another kind of machine need not have the same
 /// bits.
 fn arithmetic(options: &Options) -> Value {
     let fused = options.instructions.fused();

@@ -1,4 +1,4 @@
-//! What was found: its numbers, described once, and what people are shown of them.
+//! Answers: data, described once, and what people are shown of them.
 
 use crate::failure::CommandError;
 use crate::store::Store;
@@ -11,9 +11,9 @@ use std::path::Path;
 /// Takes figures, each under its name.
 pub type Take<'a> = &'a mut dyn FnMut(&str, &Figure) -> Result<(), CommandError>;
 
-/// What is told at the end of a command.
+/// Output at the end of a command.
 pub trait Told {
-    /// What it says to people.
+    /// A text for people.
     fn summary(&self) -> String;
 
     /// Writes the JSON document.
@@ -23,7 +23,7 @@ pub trait Told {
     fn document(&self, to: &mut dyn Write) -> io::Result<()>;
 }
 
-/// What was found. Tables, arrays and the document are views of [`data`](Self::data).
+/// An answer. Tables, arrays and the document are views of [`data`](Self::data).
 pub trait Answer: Send + Sync {
     /// The study that it is about.
     fn study(&self) -> &Study;
@@ -31,7 +31,7 @@ pub trait Answer: Send + Sync {
     /// Everything that was found, each quantity described once.
     fn data(&self) -> Dataset;
 
-    /// What it says to people.
+    /// A text for people.
     fn summary(&self) -> String;
 
     /// Draws the figures one after the other; there are none by default.

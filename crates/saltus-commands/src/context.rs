@@ -1,4 +1,4 @@
-//! Who asks: how many threads work, what stops them, who watches.
+//! The run of a question: threads, a way to stop them, a display of progress.
 
 use crate::failure::CommandError;
 use saltus::study::Control;
@@ -15,20 +15,20 @@ pub struct RunContext<'a> {
     pub stop: Arc<AtomicBool>,
     /// Told how far the work has come.
     pub watch: &'a dyn Progress,
-    /// Where finished pieces of work that can be cut are kept; nowhere by default.
+    /// Place of finished pieces, if the work can be cut; none by default.
     pub keep: Option<Pieces>,
 }
 
 /// Pieces of long work: they outlive an interruption, and may come from elsewhere.
 #[derive(Clone, Debug)]
 pub struct Pieces {
-    /// Where they are.
+    /// Their place.
     pub place: PiecesAt,
-    /// What becomes of those that are there.
+    /// Treatment of those that are there.
     pub found: Existing,
 }
 
-/// Where pieces are.
+/// Places of pieces.
 #[derive(Clone, Debug)]
 pub enum PiecesAt {
     /// In a hidden folder beside this one, the folder of results to be.
@@ -37,7 +37,7 @@ pub enum PiecesAt {
     Memory(Vec<(u32, Vec<u8>)>),
 }
 
-/// What becomes of pieces that are there.
+/// Treatments of pieces that are there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Existing {
     /// They are in the way: the work begins anew or not at all. In memory nothing is in the way.
@@ -51,7 +51,7 @@ pub enum Existing {
 /// A part of the work.
 #[derive(Clone, Debug)]
 pub struct Stage {
-    /// What is counted, such as "pixels".
+    /// Name of the things counted, such as "pixels".
     pub what: String,
     /// How many there are; `None` where nobody knows.
     pub total: Option<u64>,
@@ -59,7 +59,7 @@ pub struct Stage {
     pub done: Arc<AtomicU64>,
 }
 
-/// Someone who is told how far the work has come.
+/// Display of how far the work has come.
 pub trait Progress: Sync {
     /// A part begins. What is done already does not count as fast.
     fn begin(&self, stage: Stage);
@@ -147,7 +147,7 @@ impl RunContext<'_> {
         work()
     }
 
-    /// `Err` once the work shall stop; asked between parts that do not see it themselves.
+    /// `Err` once the work must stop; asked between parts that do not see it themselves.
     pub(crate) fn check(&self) -> Result<(), CommandError> {
         if self.stop.load(Ordering::SeqCst) {
             Err(CommandError::Interrupted)

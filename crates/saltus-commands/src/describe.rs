@@ -1,4 +1,4 @@
-//! What a study describes, and what in it is legal but probably not meant.
+//! The description of a study, and warnings of what is legal but probably not meant.
 
 use crate::failure::CommandError;
 use saltus::physics::BaseFrequency;
@@ -48,7 +48,7 @@ pub fn warnings(study: &Study) -> Vec<String> {
         .collect()
 }
 
-/// What a study describes and asks, line by line.
+/// Description of a study and its questions, line by line.
 ///
 /// # Errors
 /// [`CommandError::Computation`] if the frequency of the base cannot be computed.
@@ -93,7 +93,7 @@ pub fn describe(study: &Study) -> Result<String, CommandError> {
     Ok(text)
 }
 
-/// What is asked, table by table.
+/// Questions, table by table.
 fn questions(study: &Study) -> Vec<(&'static str, String)> {
     let range = |name: &str, from: f64, to: f64| format!("{name} from {from} to {to}");
     let axis = |a: &AxisTable| range(&a.parameter, a.from(), a.to());

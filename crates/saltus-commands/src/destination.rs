@@ -1,4 +1,4 @@
-//! Where an answer goes: the folder that was asked for, or another one if that fails when the answer is there.
+//! The place of an answer: the folder that was asked for, or another one if that fails when the answer is there.
 //!
 //! A disk fills up, is mounted anew for reading only, or somebody makes a folder of that name while hours of work are
 //! under way. The answer is then written beside the folder or, if that fails too, where the system keeps temporary
@@ -17,11 +17,11 @@ use std::path::{Path, PathBuf};
 
 /// A folder of results to be.
 pub struct Destination<'a> {
-    /// What was asked.
+    /// The question.
     pub request: &'a Request,
-    /// What it is about, as [`Request::study`] gives it.
+    /// Its study, as [`Request::study`] gives it.
     pub study: &'a Study,
-    /// Who asks.
+    /// The run.
     pub context: &'a RunContext<'a>,
 }
 
@@ -38,7 +38,7 @@ impl Destination<'_> {
     ///
     /// # Errors
     /// [`CommandError::Elsewhere`] if that is not possible but another place was; what is wrong with `dir` if none was;
-    /// [`CommandError::Interrupted`] or [`CommandError::Suspended`] if the work shall stop.
+    /// [`CommandError::Interrupted`] or [`CommandError::Suspended`] if the work must stop.
     pub fn store(&self, dir: &Path, answer: &dyn Answer) -> Result<(), CommandError> {
         let beside = dir.parent().unwrap_or(dir);
         let here = beside.as_os_str().is_empty();

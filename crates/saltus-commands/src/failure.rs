@@ -20,17 +20,17 @@ pub enum CommandError {
     /// The study is sound in itself, but cannot be used for what was asked.
     #[error("{message}")]
     Refused {
-        /// What is wrong.
+        /// Description of the fault.
         message: String,
-        /// What would be right.
+        /// Advice: a value that would be right.
         help: Option<String>,
     },
     /// The study is sound, but the computation did not get through.
     #[error("{message}")]
     Computation {
-        /// What failed.
+        /// Description of the failure.
         message: String,
-        /// What to try.
+        /// Advice: something to try.
         help: Option<String>,
     },
     /// A result that could not be drawn or stored.
@@ -47,10 +47,10 @@ pub enum CommandError {
         /// Whether it was a shard, which goes on by itself.
         shard: bool,
     },
-    /// Pieces that shall be put together are not all there and whole.
+    /// Pieces to be put together are not all there and whole.
     #[error("{}:{}", counted(lacks, *pieces), list(lacks))]
     Incomplete {
-        /// What is wrong, piece by piece.
+        /// Faults, piece by piece.
         lacks: Vec<DefectivePiece>,
         /// How many pieces there should be.
         pieces: u32,
@@ -58,9 +58,9 @@ pub enum CommandError {
     /// A folder of work or results that is in the way, or not what it should be.
     #[error("{message}")]
     Work {
-        /// What is wrong with it.
+        /// Description of the fault.
         message: String,
-        /// What to do.
+        /// Advice.
         help: &'static str,
     },
     /// All parts of a long computation failed; the reason is that of the first.
@@ -71,7 +71,7 @@ pub enum CommandError {
     Elsewhere {
         /// Why it is not where it should be.
         reason: Box<CommandError>,
-        /// Where it is.
+        /// Its folder.
         folder: PathBuf,
     },
 }
@@ -112,7 +112,7 @@ impl CommandError {
         }
     }
 
-    /// What to try, where something is known.
+    /// Advice, where there is some.
     pub fn help(&self) -> Option<String> {
         match self {
             Self::Computation { help, .. } | Self::Refused { help, .. } => help.clone(),
@@ -154,7 +154,7 @@ fn list(lacks: &[DefectivePiece]) -> String {
     lacks.iter().map(|lack| format!("\n  {lack}")).collect()
 }
 
-/// Problems that are told one by one; a list for people has an end.
+/// Most problems in a list: one for people has an end.
 const TOLD: usize = 20;
 
 /// One line each, and how many more there are.

@@ -23,7 +23,7 @@ impl<'a> Models<'a> {
             study,
             parameters: parameters.iter().copied().cloned().collect(),
             options,
-            // one that cannot be prepared is told of by the values that need it
+            // values that need one report why it cannot be prepared
             plate: PreparedPlate::new(&study.plate()).ok(),
             row: Mutex::default(),
         }

@@ -4,7 +4,7 @@ use crate::per_jumper::{PANELS, panel_title};
 use saltus::model::{Observation, Section};
 use saltus_results::{Axis, Figure, Panel, Portrait};
 
-/// What a phase portrait shows.
+/// Content of a phase portrait.
 pub(super) struct Motion<'a> {
     pub(super) title: String,
     /// The way, at equal times.

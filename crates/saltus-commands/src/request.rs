@@ -1,4 +1,4 @@
-//! What can be asked of a study, and what every answer can tell.
+//! Questions of a study.
 
 use crate::answer::Answer;
 use crate::context::RunContext;
@@ -86,7 +86,7 @@ impl Request {
         }
     }
 
-    /// What its answers may have, in the order of the help. Parameters that change are variables beside these, named after
+    /// Quantities of its answers, in the order of the help. Parameters that change are variables beside these, named after
     /// their keys.
     pub fn quantities(&self) -> Vec<Quantity> {
         const STATUS: &[Quantity] = &[q::STATUS, q::STATUS_TEXT];

@@ -81,14 +81,14 @@ impl fmt::Display for Shard {
     }
 }
 
-/// What is wrong with a piece.
+/// A fault of a piece.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DefectivePiece {
     /// Its number.
     pub piece: u32,
     /// Its file, if it is one.
     pub file: Option<PathBuf>,
-    /// What is wrong: "missing", or as "99 bytes of content, not 100".
+    /// The fault: "missing", or as "99 bytes of content, not 100".
     pub problem: String,
     /// Which shard makes it, if there were shards and one does.
     pub shard: Option<Shard>,

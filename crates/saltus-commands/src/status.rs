@@ -2,7 +2,7 @@
 
 use saltus::hybrid::Status;
 
-/// One line; `omega` (rad/s) turns the engine's time into seconds, without it no time is told.
+/// One line; `omega` (rad/s) turns the engine's time into seconds, without it no time is given.
 pub(crate) fn text(status: &Status, omega: Option<f64>) -> String {
     let by = |time: f64| {
         omega.map_or(String::new(), |omega| {

@@ -1,4 +1,4 @@
-//! Where the parts of an answer go: files of a folder, or memory.
+//! Stores of the parts of an answer: files of a folder, or memory.
 
 use crate::context::RunContext;
 use crate::failure::CommandError;
@@ -85,7 +85,7 @@ impl Folder {
     /// Moves everything into place.
     ///
     /// # Errors
-    /// [`CommandError::Results`] if that is not possible, [`CommandError::Interrupted`] if it shall not be.
+    /// [`CommandError::Results`] if that is not possible, [`CommandError::Interrupted`] if it must not be.
     pub fn commit(self) -> Result<PathBuf, CommandError> {
         self.check()?;
         Ok(self.inner.commit()?)

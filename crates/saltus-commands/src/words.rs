@@ -28,7 +28,7 @@ pub(crate) fn setting(study: &Study, model: &Model) -> String {
     }
 }
 
-/// What a title says of the base, because a figure leaves its folder, unless that is what changes.
+/// The base in a title, because a figure leaves its folder; empty if the base is what changes.
 pub(crate) fn base_in_title(study: &Study, parameter: Option<&Parameter>) -> String {
     let changes = parameter.is_some_and(|p| p.key().starts_with("base.frequency"));
     let omega = study.base().omega(&study.plate(), &study.jumpers()).ok();

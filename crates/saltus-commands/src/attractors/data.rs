@@ -1,4 +1,4 @@
-//! What was found, described once.
+//! Data of the answer, described once.
 
 use super::{Found, ranges};
 use crate::data::{Of, about, coordinate, name, padded, parameter, values, whole, wholes, without};
@@ -74,7 +74,7 @@ const BODIES: [(Quantity, Bodies); 2] = [
     (q::PEAK_REACTION, |one| &one.entry.attractor.peak_reaction),
 ];
 
-/// What is known of each attractor at each value where it was met.
+/// Numbers of each attractor at each value where it was met.
 fn attractors(set: Dataset, found: &Found) -> Dataset {
     let (value, people) = (found.parameter.as_ref().map(name), found.jumpers());
     let value = value.as_deref().into_iter();

@@ -162,7 +162,7 @@ fn shares(found: &Found, parameter: &Parameter, series: &[Series]) -> Curves {
     hysteresis(found, without_attractor(found, plot))
 }
 
-/// Where some first states led to no attractor, how many.
+/// Part of the first states that led to no attractor.
 fn without_attractor(found: &Found, plot: Curves) -> Curves {
     let none = found.all.rows.iter().filter_map(|row| {
         let census = row.census.as_ref().ok()?;

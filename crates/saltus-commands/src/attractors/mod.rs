@@ -19,7 +19,7 @@ use saltus_config::{Parameter, Study};
 use saltus_results::Dataset;
 use std::sync::atomic::Ordering;
 
-/// What was asked and found.
+/// The question and its finding.
 struct Found {
     study: Study,
     /// Without a parameter there is one row, whose value means nothing.
@@ -92,7 +92,7 @@ pub(super) fn along_the_sweep(
     Ok((found, own))
 }
 
-/// What changes and its values, the lowest first.
+/// The parameter that changes and its values, the lowest first.
 fn question(study: &Study) -> Result<(Option<Parameter>, Vec<f64>), CommandError> {
     let Some(axis) = study.attractors.sweep() else {
         return Ok((None, vec![0.0]));

@@ -1,4 +1,4 @@
-//! Where attractors begin and end along the parameter, described once, and loops of hysteresis.
+//! Ranges of attractors along the parameter, and loops of hysteresis.
 
 use super::Found;
 use crate::data::{Of, values, wholes, without};
@@ -20,7 +20,7 @@ const BEYOND: [Of<AttractorRange, usize>; 2] = [
     (q::DEATH_TO, |one| beyond(one.death)),
 ];
 
-/// Where each attractor begins and ends, and where its motion jumps when it is carried beyond.
+/// Begin and end of each attractor, and the attractor that its motion jumps to beyond.
 pub(super) fn ranges(set: Dataset, found: &Found) -> Dataset {
     let (over, all) = ("attractor", &found.all.identities);
     let set = counts(

@@ -1,4 +1,4 @@
-//! What `saltus attractors` says to people.
+//! Summary of `saltus attractors` for people.
 
 use super::data::{exponent, first_failure, share};
 use super::{Found, name};
@@ -76,7 +76,7 @@ fn percent(fraction: BasinFraction) -> String {
     format!("{value:>5.1} % ({low:.1} to {high:.1} %)")
 }
 
-/// What says that it is an attractor.
+/// Evidence that it is an attractor.
 fn evidence(one: &CountedAttractor) -> String {
     if let Some(multiplier) = one.entry.attractor.multiplier {
         return format!("stable, largest multiplier {multiplier:.4}");
@@ -190,7 +190,7 @@ fn passing(found: &Found) -> String {
     })
 }
 
-/// What was not decided, and what was not seen.
+/// First states without a verdict, and the bound on basins that no first state met.
 fn doubts(found: &Found) -> String {
     let mut text = passing(found);
     text += &worst("undecided", found, |census| census.undecided);

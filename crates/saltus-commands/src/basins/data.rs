@@ -1,4 +1,4 @@
-//! What was found, described once.
+//! Data of the answer, described once.
 
 use super::Found;
 use crate::data::{name, padded, values, whole, wholes};
@@ -16,7 +16,7 @@ pub(super) fn data(found: &Found) -> Dataset {
     tables(bodies(attractors(set, found), found), found)
 }
 
-/// What each attractor is, and how much leads to it.
+/// Kind of each attractor, and the pixels that lead to it.
 fn attractors(set: Dataset, found: &Found) -> Dataset {
     let over = ["attractor_number"];
     let (plane, entries) = (&found.plane, &found.basins.attractors);
@@ -50,7 +50,7 @@ fn attractors(set: Dataset, found: &Found) -> Dataset {
     })
 }
 
-/// What it does to each person.
+/// Contact, reaction and section of each person.
 fn bodies(set: Dataset, found: &Found) -> Dataset {
     let over = ["attractor_number", "jumper"];
     let (entries, samples) = (&found.basins.attractors, found.samples());

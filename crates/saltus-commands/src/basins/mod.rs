@@ -31,7 +31,7 @@ add a table that says which first states, such as
   to = 4.0
   count = 64";
 
-/// What was found.
+/// The finding.
 struct Basins {
     layers: Layers,
     /// The most frequent first.
@@ -42,7 +42,7 @@ struct Basins {
     identities: Vec<Option<usize>>,
 }
 
-/// What is being found, pixel by pixel.
+/// Findings so far, pixel by pixel.
 struct Finding {
     layers: Layers,
     catalogue: AttractorCatalogue,
@@ -50,7 +50,7 @@ struct Finding {
     number: Vec<Option<usize>>,
 }
 
-/// What was found, for a study.
+/// The finding for a study.
 struct Found {
     study: Study,
     plane: Plane,
@@ -112,7 +112,7 @@ fn job(study: &Study) -> Result<Pixels<'_, impl Fn(f64, f64) -> Begun + Sync>, C
     })
 }
 
-/// What is asked, or what is missing in the question.
+/// The question, or an error that names what is missing in it.
 fn question(study: &Study) -> Result<Plane, CommandError> {
     let table = study
         .basins

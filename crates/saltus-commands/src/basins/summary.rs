@@ -1,4 +1,4 @@
-//! What `saltus basins` says to people.
+//! Summary of `saltus basins` for people.
 
 use super::Basins;
 use crate::plane::{Plane, Tally, period};

@@ -1,4 +1,4 @@
-//! Whose methods an answer rests on. The entries are in `references.bib`; `docs/references.md` has the same works,
+//! Works that an answer rests on. The entries are in `references.bib`; `docs/references.md` has the same works,
 //! and those that only tests and figures use.
 
 use crate::request::Request;
@@ -15,11 +15,11 @@ pub struct Citation {
     pub key: &'static str,
     /// Its entry in BibTeX.
     pub bibtex: String,
-    /// What it was used for, as "roots of guards".
+    /// Its use, as "roots of guards".
     pub why: &'static str,
 }
 
-/// What an answer to `request` about `study` rests on: the program, the model, and the methods that were or may have
+/// Works that an answer to `request` about `study` rests on: the program, the model, and the methods that were or may have
 /// been used on the way, in this order. `study` is what [`Request::study`] gives.
 pub fn citations(request: &Request, study: &Study) -> Vec<Citation> {
     works(request, study, env!("CARGO_PKG_VERSION"))

@@ -4,7 +4,7 @@ use super::question::Question;
 use crate::kinds;
 use saltus::orbits::{BranchWithOrigin, Curve, CurvePoint, ParametricMap, Special, follow_curve};
 
-/// What became of a curve that was asked for.
+/// A curve that was asked for, or the reason why there is none.
 pub(super) struct Followed {
     /// Label of the special point, or the word that means none.
     pub(super) label: String,

@@ -30,7 +30,7 @@ use view::View;
 /// Forcing periods per value of the cloud: left out, and shown.
 const CLOUD: (u64, u64) = (150, 50);
 
-/// What was found.
+/// The finding.
 struct Found {
     study: Study,
     /// At the start.

@@ -35,7 +35,7 @@ fn readable<S: Serializer>(path: &Path, to: S) -> Result<S::Ok, S::Error> {
     to.collect_str(&path.display())
 }
 
-/// What a restart needs of the document.
+/// The part of the document that a restart needs.
 #[derive(Deserialize)]
 struct Document {
     parameter: String,

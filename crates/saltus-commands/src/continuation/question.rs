@@ -1,4 +1,4 @@
-//! What is asked: which parameters, over which ranges, from where.
+//! The question: parameters, their ranges, and the first orbit.
 
 use crate::failure::CommandError;
 use crate::plane::need_people;

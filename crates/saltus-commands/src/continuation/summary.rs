@@ -1,4 +1,4 @@
-//! What `saltus continue` says to people.
+//! Summary of `saltus continue` for people.
 
 use super::data::period;
 use super::{Followed, Found};

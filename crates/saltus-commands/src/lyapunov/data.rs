@@ -1,4 +1,4 @@
-//! What was found, described once.
+//! Data of the answer, described once.
 
 use super::{Found, words};
 use crate::data::{about, base, each_number, whole, wholes};
@@ -99,7 +99,7 @@ fn convergence(set: Dataset, found: &Found) -> Dataset {
 }
 
 impl Found {
-    /// Where the exponents come from.
+    /// Source of the exponents.
     pub(super) fn source(&self) -> &'static str {
         match self.growth.cycle {
             Some(_) => "orbit",

@@ -20,7 +20,7 @@ use saltus_results::Dataset;
 /// Forcing periods in which a repetition is looked for; those of up to half as many are seen.
 const SEEN: u64 = 128;
 
-/// What was found for a study.
+/// The finding for a study.
 struct Found {
     study: Study,
     model: Model,
@@ -39,7 +39,7 @@ pub(crate) fn ask(study: &Study, context: &RunContext) -> Result<Box<dyn Answer>
     Ok(Box::new(measure(study, model, how, &control, context)?))
 }
 
-/// What is asked, or why it makes no sense.
+/// The question, or an error that says why it makes no sense.
 fn question(study: &Study, model: &Model) -> Result<Measurement, CommandError> {
     let (table, states) = (&study.lyapunov, model.free_states());
     let exponents = match table.exponents as usize {

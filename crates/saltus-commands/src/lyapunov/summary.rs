@@ -1,4 +1,4 @@
-//! What `saltus lyapunov` says to people.
+//! Summary of `saltus lyapunov` for people.
 
 use super::{Found, words};
 use crate::status;

@@ -29,7 +29,7 @@ add a table that says what changes, such as
   to = 1.15
   count = 64";
 
-/// What was found.
+/// The finding.
 struct Found {
     study: Study,
     plane: Plane,
@@ -74,7 +74,7 @@ fn job(study: &Study) -> Result<Pixels<'_, impl Fn(f64, f64) -> Begun + Sync>, C
     })
 }
 
-/// What is asked, or what is missing in the question.
+/// The question, or an error that names what is missing in it.
 fn question(study: &Study) -> Result<Plane, CommandError> {
     let table = study
         .map

@@ -1,4 +1,4 @@
-//! What `saltus map` says to people.
+//! Summary of `saltus map` for people.
 
 use super::Found;
 use std::fmt::Write;

@@ -1,4 +1,4 @@
-//! What was found, described once.
+//! Data of the answer, described once.
 
 use super::{Found, search};
 use crate::data::{about, base, motion, whole};
@@ -50,7 +50,7 @@ fn multipliers(set: Dataset, all: &[Multiplier]) -> Dataset {
         )
 }
 
-/// What each person does on the way around.
+/// Contact, reaction and touch-downs of each person once around.
 fn jumpers(set: Dataset, found: &Found) -> Dataset {
     let seen = &found.portrait;
     let most = seen.touch_down_phases.iter().map(Vec::len).max();

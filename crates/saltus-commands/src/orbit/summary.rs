@@ -1,4 +1,4 @@
-//! What `saltus orbit` says to people.
+//! Summary of `saltus orbit` for people.
 
 use super::Found;
 use crate::per_jumper::column;

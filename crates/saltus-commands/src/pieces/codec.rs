@@ -2,7 +2,7 @@
 
 use saltus::orbits::{Exponent, MotionKind};
 
-/// What stands for none.
+/// Code for none.
 const NO_EXPONENT: Exponent = Exponent {
     per_iterate: 0.0,
     standard_error: 0.0,
@@ -61,7 +61,7 @@ impl<'a> Reader<'a> {
     pub(crate) fn numbers(&mut self, count: usize) -> Option<Vec<f64>> {
         (0..count).map(|_| self.number()).collect()
     }
-    /// So many lists of so many numbers.
+    /// `lists` lists of `numbers` numbers each.
     pub(crate) fn lists(&mut self, lists: usize, numbers: usize) -> Option<Vec<Vec<f64>>> {
         (0..lists).map(|_| self.numbers(numbers)).collect()
     }

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 /// Pieces of work, about: each costs a file, and an interruption costs those under way.
 const PIECES: usize = 256;
-/// Most items in a piece. What is lost with a piece under way shall be a part of a day's work also where a pixel
+/// Most items in a piece. A piece lost under way must be a part of a day's work also where a pixel
 /// takes seconds, as those of the full model do. So 10 000 x 10 000 pixels are 24 415 pieces of some
 /// 0.6 MB: no more of them can work at the same time, and file systems bear that many files in a folder.
 const MOST: usize = 4096;

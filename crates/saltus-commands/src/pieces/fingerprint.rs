@@ -1,4 +1,4 @@
-//! What pieces depend on, key by key, so that a difference can be named.
+//! The work that pieces are of, key by key, so that a difference can be named.
 
 use super::Job;
 use super::cut::Cut;

@@ -27,17 +27,17 @@ pub(crate) use work::run;
 
 /// Work that can be cut: items 0, 1, ... that do not depend on each other.
 pub(crate) trait Job: Sync {
-    /// What is found of each.
+    /// Finding of one item.
     type Item: Send;
     /// Least items in a piece: enough for the lanes of a thread, whatever they cost.
     const LEAST: usize;
-    /// What the items are called.
+    /// Name of the items, such as "pixels".
     const ITEMS: &'static str;
 
     /// Name of the command.
     fn command(&self) -> &'static str;
 
-    /// What it is about.
+    /// The study.
     fn study(&self) -> &Study;
 
     /// How many items there are.

@@ -1,4 +1,4 @@
-//! What becomes of a shard.
+//! The report of a shard.
 
 use crate::answer::{Told, stream_json};
 use crate::shard::Shard;
@@ -7,7 +7,7 @@ use serde::Serialize;
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-/// What a shard has done. As an answer it has no parts: those are in the folder of pieces.
+/// Work of a shard. It has no parts: those are in the folder of pieces.
 #[derive(Clone, Debug, Serialize)]
 pub struct ShardReport {
     /// Name of the command.
@@ -20,7 +20,7 @@ pub struct ShardReport {
     pub made: Vec<u32>,
     /// Pieces that were there.
     pub found: Vec<u32>,
-    /// Where they are.
+    /// Their place.
     pub folder: PathBuf,
     /// Of the program.
     pub version: &'static str,

@@ -1,4 +1,4 @@
-//! Where pieces are kept, and what is there.
+//! Storage of pieces, and the inventory of it.
 
 use super::Job;
 use super::cut::Cut;
@@ -12,7 +12,7 @@ use saltus_results::{PieceStore, ResultsError, Seal};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-/// Where finished pieces are.
+/// Storage of finished pieces.
 pub(super) enum PieceStorage<'a> {
     Nowhere,
     Folder(PieceStore),
@@ -88,7 +88,7 @@ impl<'a> PieceStorage<'a> {
         matches!(self, Self::Nowhere)
     }
 
-    /// What is wrong with these pieces, and who would make them.
+    /// Faults of these pieces, with the shards that would make them.
     pub(super) fn lacks(
         &self,
         stock: &PieceInventory,
@@ -134,7 +134,7 @@ impl PieceFolder {
         Ok(self.0.take().map_or(Ok(()), PieceStore::remove)?)
     }
 
-    /// What to say after an interruption.
+    /// Error after an interruption.
     pub(super) fn suspended(self) -> CommandError {
         match self.0 {
             Some(store) => CommandError::Suspended {

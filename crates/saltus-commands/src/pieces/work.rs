@@ -77,7 +77,7 @@ pub(super) fn share<J: Job>(
     else {
         return Err(CommandError::refused(
             "a shard leaves its pieces beside the folder of results, and there is none",
-            "say where the results shall be",
+            "say where the results are to be",
         ));
     };
     let cut = Cut::of(job);
@@ -160,7 +160,7 @@ pub(super) fn compute<J: Job>(
     Ok(made.into_iter().collect())
 }
 
-/// Refuses to go on with what is missing if nothing shall be computed; otherwise says what is made again.
+/// Refuses to go on with pieces missing if nothing is to be computed; otherwise names those that are made again.
 fn complete(
     shelf: &PieceStorage,
     stock: &PieceInventory,
@@ -322,7 +322,7 @@ impl<J: Job> Queue<'_, J> {
     }
 }
 
-/// What a piece holds.
+/// Content of a piece.
 fn content<J: Job>(job: &J, items: &[J::Item]) -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut out = Writer::new(&mut bytes);

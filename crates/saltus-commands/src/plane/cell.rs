@@ -6,7 +6,7 @@ use saltus::model::ModelError;
 use saltus::physics::PhysicsError;
 use saltus::study::{Attractor, Found, Lost};
 
-/// What became of one pixel.
+/// The finding of one pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Cell {
     pub(crate) attractor: Result<Attractor, Loss>,

@@ -1,4 +1,4 @@
-//! What is told of a plane: all layers over (y, x), and what they add up to.
+//! Data of a plane: all layers over (y, x), and what they add up to.
 
 use super::{Layers, Plane, PlaneAxis, Span, Tally, span};
 use crate::data::{about, coordinate, each_jumper, in_unit_of, name, parameter_of, whole, wholes};

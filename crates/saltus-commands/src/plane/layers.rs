@@ -6,7 +6,7 @@ use crate::quantities as q;
 use saltus::orbits::MotionKind;
 use std::collections::BTreeMap;
 
-/// What became of a pixel, by the code it has in the layer `status`.
+/// Status of a pixel, by its code in the layer of that name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Status {
     Periodic,

@@ -1,4 +1,4 @@
-//! What `saltus map` and `saltus basins` share: a plane of pixels, each the attractor of one start.
+//! A plane of pixels, each the attractor of one start: the part that `saltus map` and `saltus basins` share.
 
 mod cell;
 mod data;

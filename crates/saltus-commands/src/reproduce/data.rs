@@ -30,7 +30,7 @@ pub(super) fn panels(results: &Results) -> impl Iterator<Item = (&Diagram, &Pane
     all.filter(|(_, panel)| panel.detail.is_some())
 }
 
-/// What is known of the paper's own panels.
+/// Details of the paper's own panels.
 pub(super) fn details(results: &Results) -> impl Iterator<Item = (f64, &Detail)> {
     let panels = results.branches.iter();
     panels.filter_map(|panel| Some((panel.ratio, panel.detail.as_ref()?)))
@@ -121,7 +121,7 @@ fn pass_name(pass: &Pass) -> String {
     }
 }
 
-/// Where which cycle is stable, under every law and both readings.
+/// Ranges in which cycles are stable, under every law and both readings.
 fn regimes(set: Dataset, results: &Results) -> Dataset {
     let regimes = Report::new(results).regimes;
     Listed::new(set, "regimes", "regime", &regimes)
@@ -137,7 +137,7 @@ fn regimes(set: Dataset, results: &Results) -> Dataset {
         .end()
 }
 
-/// What the motions of Fig. 2 have come to, held against the stable cycles.
+/// Motions of Fig. 2 beside the stable cycles: on one, on a slow way to one, or neither.
 fn sweeps(set: Dataset, results: &Results) -> Dataset {
     struct Row {
         ratio: f64,
@@ -289,7 +289,7 @@ fn inertia(set: Dataset, results: &Results) -> Dataset {
         .end()
 }
 
-/// What the motions of Fig. 2 have come to, counted.
+/// The same, counted.
 pub(super) fn came_to(results: &Results) -> String {
     let met = panels(results).flat_map(|(diagram, panel)| {
         let met = |row| Diagram::met(row, &panel.stretches);

@@ -75,13 +75,13 @@ pub(super) struct RegimeRow {
     pub(super) base_hz: f64,
     pub(super) period: usize,
     pub(super) from: f64,
-    /// What happens at that end.
+    /// Event at that end.
     pub(super) from_is: String,
     pub(super) to: f64,
     pub(super) to_is: String,
 }
 
-/// What `--quick` says of itself.
+/// Remark on a quick look.
 pub(super) const QUICK: &str = "A quick look (--quick): coarse grids, short runs, doublings up to 8T. It may miss \
                                 what is narrower than its step; without --quick everything is finer.";
 

@@ -63,7 +63,7 @@ impl SavedResult {
         })
     }
 
-    /// What the result rests on. Methods are those of this version, which may not be the one that wrote it.
+    /// Works that the result rests on. Methods are those of this version, which may not be the one that wrote it.
     pub fn citations(&self) -> Vec<Citation> {
         works(&self.request, &self.study, &self.manifest.version)
     }

@@ -25,7 +25,7 @@ pub struct Rerun {
     pub command: &'static str,
     /// Folder of the result.
     pub result: String,
-    /// What was asked.
+    /// The question.
     pub request: Request,
     /// Whether all files are the same to the bit.
     pub identical: bool,
@@ -34,7 +34,7 @@ pub struct Rerun {
     pub comparison: Comparison,
     /// Why they may differ; empty if they do not, or no reason is known.
     pub reasons: Vec<String>,
-    /// Where the new result is; nothing if it was removed.
+    /// Folder of the new result; nothing if it was removed.
     pub kept: Option<String>,
     /// Of the program that wrote the result.
     pub version_of_result: String,

@@ -1,4 +1,4 @@
-//! What was found, described once.
+//! Data of the answer, described once.
 
 use super::Found;
 use crate::data::{about, base, motion, padded, whole};
@@ -34,7 +34,7 @@ fn section(set: Dataset, found: &Found) -> Dataset {
     set.table(motion::columns(table, "", &found.model))
 }
 
-/// What each person does, in each period and behind the transient.
+/// Contact and reaction of each person, in each period and behind the transient.
 fn jumpers(set: Dataset, found: &Found) -> Dataset {
     let trajectory = &found.trajectory;
     let each = trajectory.contact_ratio.iter();

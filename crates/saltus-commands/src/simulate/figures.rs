@@ -16,7 +16,7 @@ pub(super) fn draw(found: &Found, take: Take) -> Result<(), CommandError> {
     take("history", &histories(found))
 }
 
-/// What the time history covers; less than a period of it counts as one.
+/// Periods that the time history covers; less than one counts as one.
 fn covered(found: &Found) -> String {
     let points = found.trajectory.history.time.len();
     match points.div_ceil(super::POINTS as usize) {

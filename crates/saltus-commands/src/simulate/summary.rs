@@ -1,4 +1,4 @@
-//! What `saltus simulate` says to people.
+//! Summary of `saltus simulate` for people.
 
 use super::Found;
 use crate::data::motion::kind;

@@ -1,4 +1,4 @@
-//! What was found, described once.
+//! Data of the answer, described once.
 
 use super::{Found, Row};
 use crate::data::{about, coordinate, each_number, name, padded, parameter, wholes};

@@ -142,7 +142,7 @@ fn indivisible(table: &SweepTable) -> CommandError {
     )
 }
 
-/// What is asked, or what is missing in the question.
+/// The question, or an error that names what is missing in it.
 fn question(study: &Study) -> Result<(&SweepTable, Parameter), CommandError> {
     let table = study
         .sweep

@@ -1,4 +1,4 @@
-//! What `saltus sweep` says to people.
+//! Summary of `saltus sweep` for people.
 
 use super::data::{direction, labels};
 use super::{Found, Row};

@@ -99,7 +99,7 @@ impl Measurement {
 /// If the motion has come to a cycle, [`LyapunovRun::cycle`] is that.
 ///
 /// # Errors
-/// As [`growth`].
+/// As [`lyapunov_of_states`].
 pub fn lyapunov(
     model: &Model,
     start: &Point,

@@ -85,7 +85,7 @@ where
 /// from where its label was found; none without a label, or if the motion ends early now.
 ///
 /// # Errors
-/// As [`growth`].
+/// As [`lyapunov_of_states`].
 pub fn exponents<F>(
     rows: &[SweepRow],
     labels: &[Option<Label>],

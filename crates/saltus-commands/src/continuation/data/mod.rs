@@ -1,4 +1,4 @@
-//! What was found, described once: all points one after the other, branches, special points, and curves over two
+//! Data of branches: all points one after the other, branches, special points, and curves over two
 //! parameters.
 
 mod curves;
