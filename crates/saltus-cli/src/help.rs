@@ -14,10 +14,11 @@ fn text(what: &str, request: &Request, tables: &str) -> String {
         "" => String::new(),
         what => format!("{what}\n\n"),
     };
-    text += &format!(
-        "Data, in {name}.nc (--out; xarray.open_dataset) and as arrays in Python; single\nvalues and lists also in \
-         JSON (--json, and {name}.json), null where there is none:\n"
+    let data = format!(
+        "Data, in {name}.nc (--out; xarray.open_dataset) and as arrays in Python; single values and lists also in JSON \
+         (--json, and {name}.json), null where there is none:"
     );
+    text += &filled(String::new(), 0, &data);
     for quantity in request.quantities() {
         text += &entry(&quantity);
     }
@@ -36,16 +37,21 @@ fn entry(quantity: &Quantity) -> String {
         words => format!(": {}", words.join(", ")),
     };
     let meaning = format!("{}{unit}{words}", quantity.meaning);
-    let mut lines = format!("  {:<1$}", quantity.name, NAMES - 2);
+    let mut name = format!("  {:<1$}", quantity.name, NAMES - 2);
     if quantity.name.len() + 3 > NAMES {
-        lines += &format!("\n{:NAMES$}", "");
+        name += &format!("\n{:NAMES$}", "");
     }
-    let mut column = NAMES;
-    for word in meaning.split(' ') {
+    filled(name, NAMES, &meaning)
+}
+
+/// `lines`, whose last has `indent` columns, with the words of `text` behind it, in lines that begin as far in.
+fn filled(mut lines: String, indent: usize, text: &str) -> String {
+    let mut column = indent;
+    for word in text.split(' ') {
         let length = word.chars().count();
         if column + length > WIDTH {
-            lines = format!("{}\n{:NAMES$}", lines.trim_end(), "");
-            column = NAMES;
+            lines = format!("{}\n{:indent$}", lines.trim_end(), "");
+            column = indent;
         }
         lines += &format!("{word} ");
         column += length + 1;
