@@ -67,10 +67,10 @@ impl Task for Recorder {
 /// As [`integrate`].
 ///
 /// ```
-/// use saltus_hybrid::{Leg, Options, Status, record, testing};
+/// use saltus_hybrid::{Segment, Options, Status, record, testing};
 /// let ball = testing::bouncing_ball(9.81, 0.8, 10.0);
 /// let start = ball.point(&[0], &[1.0, 0.0]);
-/// let run = record(&Leg { system: ball, start, periods: 1 }, &Options::default())?;
+/// let run = record(&Segment { system: ball, start, periods: 1 }, &Options::default())?;
 /// // Infinitely many bounces in finite time: the run reports that and stops.
 /// assert!(matches!(run.end.status, Status::Chattering { .. }));
 /// # Ok::<(), saltus_hybrid::IntegrateError>(())
