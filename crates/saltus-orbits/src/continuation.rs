@@ -74,14 +74,14 @@ pub struct Point {
     /// divided by the weight.
     pub tangent: Vec<f64>,
     /// The tangent at all places.
-    pub(crate) spread: Change,
+    pub(crate) full_tangent: Change,
     /// Determinant of the equations with the tangent below them: it changes its sign at branch points.
-    pub(crate) side: f64,
+    pub(crate) branch_test: f64,
 }
 
 impl Point {
     /// Change of the parameter along the tangent.
-    pub(crate) fn pace(&self) -> f64 {
+    pub(crate) fn parameter_rate(&self) -> f64 {
         self.tangent[self.tangent.len() - 1]
     }
 
@@ -89,9 +89,9 @@ impl Point {
     pub(crate) fn reversed(mut self) -> Self {
         let turned = |all: &[f64]| scaled(all, -1.0);
         self.tangent = turned(&self.tangent);
-        self.spread.free = turned(&self.spread.free);
-        self.spread.x = self.spread.x.iter().map(|x| turned(x)).collect();
-        self.side = -self.side;
+        self.full_tangent.free = turned(&self.full_tangent.free);
+        self.full_tangent.x = self.full_tangent.x.iter().map(|x| turned(x)).collect();
+        self.branch_test = -self.branch_test;
         self
     }
 }

@@ -20,7 +20,7 @@ impl<F: ParametricMap + ?Sized> Path<'_, F> {
         if length > 4.0 * aside {
             return None;
         }
-        let middle = length * a.side / (a.side - b.side);
+        let middle = length * a.branch_test / (a.branch_test - b.branch_test);
         let at = [-2.0, -1.0, 1.0, 2.0].map(|times| middle + times * aside);
         let mut points = Vec::new();
         for at in at {
@@ -36,10 +36,10 @@ impl<F: ParametricMap + ?Sized> Path<'_, F> {
             (0..4).map(|i| weight(i) * value(&points[i])).sum()
         };
         let (mut low, mut high) = (at[0], at[3]);
-        let falling = points[0].side > 0.0;
+        let falling = points[0].branch_test > 0.0;
         for _ in 0..ROUNDS {
             let s = f64::midpoint(low, high);
-            if (cubic(&|point| point.side, s) > 0.0) == falling {
+            if (cubic(&|point| point.branch_test, s) > 0.0) == falling {
                 low = s;
             } else {
                 high = s;

@@ -42,9 +42,15 @@ pub(crate) fn changes(a: &Point, b: &Point, pairs: bool) -> Vec<Test> {
         }
     };
     put(Test::Events, events);
-    put(Test::BranchPoint, (a.side < 0.0) != (b.side < 0.0));
+    put(
+        Test::BranchPoint,
+        (a.branch_test < 0.0) != (b.branch_test < 0.0),
+    );
     put(Test::PeriodDoubling, flips(a) % 2 != flips(b) % 2);
-    put(Test::Fold, (a.pace() < 0.0) != (b.pace() < 0.0));
+    put(
+        Test::Fold,
+        (a.parameter_rate() < 0.0) != (b.parameter_rate() < 0.0),
+    );
     // The others take one multiplier each through the circle.
     if pairs && a.outside.abs_diff(b.outside) >= 2 + all.len() {
         all.push(Test::NeimarkSacker);
@@ -57,9 +63,9 @@ impl Test {
     pub(crate) fn value(self, point: &Point) -> Option<f64> {
         match self {
             Self::Events => None,
-            Self::BranchPoint => Some(point.side),
+            Self::BranchPoint => Some(point.branch_test),
             Self::PeriodDoubling => flip(&point.orbit),
-            Self::Fold => Some(point.pace()),
+            Self::Fold => Some(point.parameter_rate()),
             Self::NeimarkSacker => Some(critical_pair(&point.orbit)?.modulus() - 1.0),
         }
     }

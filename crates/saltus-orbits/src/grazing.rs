@@ -54,7 +54,7 @@ impl<F: ParametricMap + ?Sized> Path<'_, F> {
             let guess = quiet
                 .orbit
                 .guess()
-                .moved(&self.free, sign * step, &quiet.spread);
+                .moved(&self.free, sign * step, &quiet.full_tangent);
             let next = self.solve(&guess, &quiet.tangent, &quiet.tangent);
             let next = next.ok().filter(|next| {
                 let [before, now] = [&quiet.orbit, &next.orbit].map(Orbit::switches);

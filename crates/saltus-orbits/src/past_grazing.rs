@@ -60,7 +60,7 @@ impl<F: ParametricMap + ?Sized> Path<'_, F> {
         Special {
             label: String::new(),
             kind: SpecialKind::Grazing { unit },
-            parameter: last.parameter + ahead * last.pace() * self.free[0].unit,
+            parameter: last.parameter + ahead * last.parameter_rate() * self.free[0].unit,
             orbit: last.orbit.clone(),
             near: points.len() - 1,
             outside,
@@ -73,8 +73,15 @@ impl<F: ParametricMap + ?Sized> Path<'_, F> {
     /// from it. The branch may go on, or come back on the same side of the parameter. It had better lead
     /// on: very near a square root derivatives are too large to be known well.
     pub(crate) fn beyond(&self, last: &Point, ahead: f64) -> Option<Point> {
-        let grazing = last.orbit.guess().moved(&self.free, ahead, &last.spread);
-        let onwards = if last.pace() < 0.0 { -1.0 } else { 1.0 };
+        let grazing = last
+            .orbit
+            .guess()
+            .moved(&self.free, ahead, &last.full_tangent);
+        let onwards = if last.parameter_rate() < 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
         let range = self.range[1] - self.range[0];
         let offsets = OFFSETS
             .iter()

@@ -123,8 +123,8 @@ impl<'a, F: ParametricMap + ?Sized> Path<'a, F> {
             parameter: orbit.parameters[self.free[0].index],
             stable: orbit.stable(),
             outside: orbit.outside(),
-            spread: pass.spread(&tangent).ok_or_else(singular)?,
-            side: bordered.determinant(),
+            full_tangent: pass.spread(&tangent).ok_or_else(singular)?,
+            branch_test: bordered.determinant(),
             tangent,
             orbit,
         })

@@ -31,7 +31,10 @@ impl<F: ParametricMap + ?Sized> Path<'_, F> {
         let (up, [low, high]) = (self.upwards(), self.range);
         OFFSETS.iter().find_map(|&offset| {
             let length = AHEAD * offset;
-            let ahead = last.orbit.guess().moved(&self.free, length, &last.spread);
+            let ahead = last
+                .orbit
+                .guess()
+                .moved(&self.free, length, &last.full_tangent);
             let inside = (low..=high).contains(&ahead.parameters[self.free[0].index]);
             let tries = self.jumped(last, offset).into_iter().filter(|_| inside);
             let mut found = tries.filter_map(|place| {
@@ -42,7 +45,7 @@ impl<F: ParametricMap + ?Sized> Path<'_, F> {
                 self.solve(&rest, &up, &up).ok()
             });
             let point = found.find(|point| wandered(&last.orbit, &point.orbit))?;
-            let onwards = point.pace() * last.pace() > 0.0;
+            let onwards = point.parameter_rate() * last.parameter_rate() > 0.0;
             Some(if onwards { point } else { point.reversed() })
         })
     }

@@ -109,8 +109,8 @@ impl<F: ParametricMap + ?Sized> Path<'_, F> {
             parameter: orbit.parameters[self.free[0].index],
             stable: orbit.stable(),
             outside: orbit.outside(),
-            spread: pass.spread(&tangent)?,
-            side: 0.0,
+            full_tangent: pass.spread(&tangent)?,
+            branch_test: 0.0,
             tangent,
             orbit,
         })

@@ -186,8 +186,8 @@ impl<F: ParametricMap + ?Sized> Path<'_, F> {
     /// Whether a point is at an end of the range and the branch leads out.
     fn leaves(&self, point: &Point) -> bool {
         let [low, high] = self.range;
-        let pace = point.pace();
-        (point.parameter >= high && pace > 0.0) || (point.parameter <= low && pace < 0.0)
+        let rate = point.parameter_rate();
+        (point.parameter >= high && rate > 0.0) || (point.parameter <= low && rate < 0.0)
     }
 
     fn inside(&self, parameter: f64) -> f64 {
@@ -196,9 +196,12 @@ impl<F: ParametricMap + ?Sized> Path<'_, F> {
 
     /// The point `step` ahead, or that at the end of the range before it.
     pub(crate) fn next(&self, last: &Point, step: f64) -> Result<Point, End> {
-        let ahead = last.parameter + step * last.pace() * self.free[0].unit;
+        let ahead = last.parameter + step * last.parameter_rate() * self.free[0].unit;
         let mut point = if self.inside(ahead) == ahead {
-            let guess = last.orbit.guess().moved(&self.free, step, &last.spread);
+            let guess = last
+                .orbit
+                .guess()
+                .moved(&self.free, step, &last.full_tangent);
             let point = self.solve(&guess, &last.tangent, &last.tangent)?;
             let aside = minus(&self.apart(last, &point), &scaled(&last.tangent, step));
             if norm(&aside) > NEAR * step {
@@ -208,7 +211,10 @@ impl<F: ParametricMap + ?Sized> Path<'_, F> {
         } else {
             let edge = self.inside(ahead);
             let step = step * (edge - last.parameter) / (ahead - last.parameter);
-            let mut guess = last.orbit.guess().moved(&self.free, step, &last.spread);
+            let mut guess = last
+                .orbit
+                .guess()
+                .moved(&self.free, step, &last.full_tangent);
             guess.parameters[self.free[0].index] = edge;
             self.solve(&guess, &self.upwards(), &last.tangent)?
         };
