@@ -63,19 +63,14 @@ pub trait Answer: Send + Sync {
         stream_json(to, &whole)
     }
 
-    /// Hands over what is no document: `data` under the name `dataset`, figures, texts.
+    /// Hands over what is no document: figures, and the data under the name `dataset`. That is made last and goes away with
+    /// the store, since that of a large map is as large as the answer.
     ///
     /// # Errors
     /// [`CommandError`] where the store refuses or a figure cannot be drawn.
-    fn fill(
-        &self,
-        store: &mut dyn Store,
-        dataset: &str,
-        data: Dataset,
-    ) -> Result<(), CommandError> {
+    fn fill(&self, store: &mut dyn Store, dataset: &str) -> Result<(), CommandError> {
         self.draw(&mut |name, figure| store.put_figure(name, figure))?;
-        // the last, since it is the largest and goes away with it
-        store.put_dataset(dataset, data)
+        store.put_dataset(dataset, self.data())
     }
 
     /// Why it is not all that was asked for, if so: a motion that ended early, as far as it came.

@@ -1,6 +1,6 @@
 //! Questions of a study.
 
-use crate::answer::Answer;
+use crate::answer::{Answer, Told};
 use crate::context::RunContext;
 use crate::continuation::Labelled;
 use crate::failure::CommandError;
@@ -246,10 +246,7 @@ impl dyn Answer + '_ {
     /// # Errors
     /// [`CommandError`] where the store refuses or a figure cannot be drawn.
     pub fn store(&self, request: &Request, store: &mut dyn Store) -> Result<(), CommandError> {
-        let data = self.data();
-        store.put_text(&request.document(), &mut |file| {
-            Answer::document(self, &data, file)
-        })?;
-        self.fill(store, &request.dataset(), data)
+        store.put_text(&request.document(), &mut |file| Told::document(self, file))?;
+        self.fill(store, &request.dataset())
     }
 }

@@ -217,7 +217,7 @@ impl Answer {
             let mut memory = Memory::default();
             let found = &self.known.found;
             let name = self.known.request.dataset();
-            py.detach(|| found.fill(&mut memory, &name, found.data()))
+            py.detach(|| found.fill(&mut memory, &name))
                 .map_err(|failure| error::of(&failure))?;
             memory.handed_over(py)
         })

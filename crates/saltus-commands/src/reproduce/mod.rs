@@ -60,9 +60,9 @@ impl Answer for Results {
         stream_json(to, &Report::new(self))
     }
 
-    fn fill(&self, store: &mut dyn Store, name: &str, data: Dataset) -> Result<(), CommandError> {
+    fn fill(&self, store: &mut dyn Store, name: &str) -> Result<(), CommandError> {
         page::write(store, self, &Report::new(self))?;
-        store.put_dataset(name, data)
+        store.put_dataset(name, self.data())
     }
 }
 
