@@ -57,7 +57,8 @@ def check_file(path):
         assert content(a) == content(b), f"{path}: values of {name} differ between the engines"
         assert attributes(a) == attributes(b), f"{path}: attributes of {name} differ"
         if name in one.dims and not is_text(a):
-            assert a.attrs.get("units"), f"{path}: the coordinate {name} has no units"
+            told = a.attrs.get("units") or a.attrs.get("flag_meanings")
+            assert told, f"{path}: the coordinate {name} has neither units nor meanings"
         flags = a.attrs.get("flag_meanings")
         if flags is not None:
             values = np.atleast_1d(a.attrs["flag_values"])
