@@ -7,7 +7,7 @@ use saltus_results::Quantity;
 const WIDTH: usize = 80;
 const NAMES: usize = 20;
 
-/// What a command does, the quantities that its answers have, and the tables that show them.
+/// Help of a command: its work, the quantities of its answers, and the tables that show them.
 fn text(what: &str, request: &Request, tables: &str) -> String {
     let name = request.name();
     let mut text = match what {

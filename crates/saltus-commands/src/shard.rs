@@ -6,7 +6,7 @@ use std::fmt;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-/// Which part of the work: every `of`-th piece, so that costs spread evenly, `number` from 1 to `of`.
+/// A part of the work: every `of`-th piece, so that costs spread evenly, `number` from 1 to `of`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Shard {
     number: u32,
@@ -25,7 +25,7 @@ pub enum ShardError {
     /// Not one of them.
     #[error("shards of {of} are counted from 1: 1/{of} to {of}/{of}")]
     Beyond {
-        /// How many there are.
+        /// Number of shards.
         of: u32,
     },
 }
@@ -43,7 +43,7 @@ impl Shard {
         }
     }
 
-    /// Which, from 1.
+    /// Its number, from 1.
     pub fn number(self) -> u32 {
         self.number
     }
@@ -90,9 +90,9 @@ pub struct DefectivePiece {
     pub file: Option<PathBuf>,
     /// The fault: "missing", or as "99 bytes of content, not 100".
     pub problem: String,
-    /// Which shard makes it, if there were shards and one does.
+    /// The shard that makes it, if there were shards and one does.
     pub shard: Option<Shard>,
-    /// How many pieces the work has, if this is none of them.
+    /// Number of pieces of the work, if this is none of them.
     pub beyond: Option<u32>,
 }
 

@@ -35,7 +35,7 @@ pub enum NotFound {
     /// A start that is no state of the map.
     #[error("place {place} of the start must hold {dimension} finite numbers")]
     BadPlace {
-        /// Which, from 0.
+        /// Its index, from 0.
         place: usize,
         /// Length of a state.
         dimension: usize,

@@ -34,7 +34,7 @@ pub struct Comparison {
 pub struct FileComparison {
     /// Path within the folders.
     pub name: String,
-    /// How it compares.
+    /// Outcome of the comparison.
     #[serde(flatten)]
     pub outcome: Outcome,
 }

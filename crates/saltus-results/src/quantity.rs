@@ -18,7 +18,7 @@ pub struct Quantity {
     pub meaning: &'static str,
     /// As UDUNITS spells it, "1" for a ratio; empty where there is none, as of a text.
     pub unit: &'static str,
-    /// What whole numbers from 0 on stand for; empty for numbers.
+    /// Words that whole numbers from 0 on stand for; empty for numbers.
     pub words: &'static [&'static str],
 }
 

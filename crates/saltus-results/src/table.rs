@@ -163,7 +163,7 @@ impl Table {
 pub struct NamedColumn {
     /// Its title in the header.
     pub title: String,
-    /// What it is, with its unit.
+    /// Its meaning, with its unit.
     pub note: String,
     /// Its cells.
     pub cells: Cells,
@@ -187,7 +187,7 @@ pub enum Cells {
 pub(crate) struct Column<'a> {
     pub(crate) title: String,
     pub(crate) variable: &'a Variable,
-    /// How far apart its values are along each axis of the rows; 0 where it has no such axis.
+    /// Distances between its values along each axis of the rows; 0 where it has no such axis.
     strides: Vec<usize>,
     offset: usize,
     /// Its axes that are no rows: name, length, stride.
@@ -378,7 +378,7 @@ fn several(column: &Column<'_>) -> String {
     )
 }
 
-/// What a variable is, with its unit.
+/// Meaning of a variable, with its unit.
 pub(crate) fn note(variable: &Variable) -> String {
     let (meaning, unit) = (variable.long_name_text(), variable.units_text());
     match unit {

@@ -17,7 +17,7 @@ fn run(desk: &Desk, command: &str, args: &[&str]) -> Value {
     )
 }
 
-/// How many pixels have this status.
+/// Number of pixels with this status.
 fn pixels(found: &Value, status: &str) -> u64 {
     let all = found["outcomes"].as_array().unwrap().iter();
     let of = all.filter(|outcome| outcome["status"] == status);

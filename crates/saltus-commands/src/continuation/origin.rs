@@ -17,7 +17,7 @@ const DOCUMENT: &str = "continue.json";
 const LARGEST: u64 = 256 << 20;
 
 /// Advice on what else to give.
-const FOLDER: &str = "--from takes a folder that `saltus continue --out` wrote";
+const FOLDER: &str = "--from takes a folder that `saltus continue --out` of this version wrote";
 
 /// An orbit of an earlier result.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

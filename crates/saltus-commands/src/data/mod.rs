@@ -50,7 +50,7 @@ pub(crate) fn base(set: Dataset, model: &Model) -> Dataset {
         .variable(q::FORCING_PERIOD.is(scales.period()))
 }
 
-/// Which parameter changes, as attributes.
+/// The parameter that changes, as attributes.
 pub(crate) fn parameter(set: Dataset, parameter: &Parameter) -> Dataset {
     parameter_of(set, "", parameter)
 }

@@ -66,7 +66,7 @@ fn first_failure(set: Dataset, plane: &Plane, layers: &Layers) -> Dataset {
         .variable(q::PLANE_FAILURE_TEXT.is(reason))
 }
 
-/// How many pixels have each status and each period.
+/// Numbers of pixels with each status and each period.
 fn tally(set: Dataset, tally: &Tally) -> Dataset {
     let counts = |counts: &mut dyn Iterator<Item = usize>| counts.map(whole).collect::<Vec<i64>>();
     let periods = || tally.periods.iter();

@@ -207,7 +207,7 @@ impl Tally {
         rest.map(|(_, pixels)| pixels).sum()
     }
 
-    /// How long the chaotic motions were watched, in words; empty if there are none.
+    /// Periods over which chaotic motions were watched, in words; empty if there are none.
     pub(crate) fn chaotic_for(&self) -> String {
         let over = self.chaotic_over;
         over.map_or(String::new(), |[least, _]| {

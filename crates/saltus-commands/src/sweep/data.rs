@@ -159,7 +159,7 @@ impl Row {
             .map_or("no-model", |end| end.name())
     }
 
-    /// How its run ended, in a sentence.
+    /// End of its run, in a sentence.
     pub(super) fn status_text(&self) -> String {
         match &self.run.status {
             Ok(end) => status::text(end, None),

@@ -25,7 +25,7 @@ pub(crate) fn keys(panels: &[Panel]) -> Vec<Key> {
                 if let (Some(sum), Some(more)) = (&mut known.tally, key.tally) {
                     sum.cells += more.cells;
                     sum.total += more.total;
-                    // Where some cells belong to a map without shares, a share of all of them would say little.
+                    // A share of all cells would say little if some belong to a map without shares.
                     sum.share &= more.share;
                 }
             }

@@ -114,7 +114,7 @@ impl Program<'_> {
         let y = frame.nodes(self.b, self.layout);
         let (h, per_mass) = (self.length(), self.per_mass());
         let a = scaled(&frame.quartic(&self.e.quartic), h * h * per_mass);
-        // What the in-plane amplitudes add to the tension: 2 B_ijk P_i h/(M Omega^2).
+        // Tension that the in-plane amplitudes add: 2 B_ijk P_i h/(M Omega^2).
         let mut tension = vec![Sum::new(); y.len()];
         for term in &self.e.coupling {
             let p = self.b.state(self.layout.p(term.i));
