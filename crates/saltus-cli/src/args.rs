@@ -5,6 +5,7 @@ use crate::{help, output};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use saltus_commands::Shard;
 use saltus_results::shown::{printable, printable_lines};
+use saltus_results::{FigureStyle, ResultsError};
 use std::ffi::OsString;
 use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
@@ -88,6 +89,36 @@ pub(crate) struct OutputArgs {
     /// No progress and no summary, only what was asked for and errors
     #[arg(long, short)]
     pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) figures: FigureArgs,
+}
+
+/// The look of figures.
+#[derive(Clone, Debug, Default, Args)]
+pub(crate) struct FigureArgs {
+    /// Width of figures in print, such as 85mm (a column) or 170mm (a page)
+    #[arg(long, value_name = "LENGTH")]
+    pub(crate) figure_width: Option<String>,
+    /// Size of the labels of figures in print [default: 8pt]
+    #[arg(long, value_name = "SIZE", requires = "figure_width")]
+    pub(crate) font_size: Option<String>,
+    /// Leave the titles out of figures
+    #[arg(long)]
+    pub(crate) no_titles: bool,
+}
+
+impl FigureArgs {
+    /// The style that they ask for.
+    pub(crate) fn style(&self) -> Result<FigureStyle, ResultsError> {
+        let mut style = FigureStyle::default().titles(!self.no_titles);
+        if let Some(width) = &self.figure_width {
+            style = style.width(width)?;
+        }
+        if let Some(size) = &self.font_size {
+            style = style.font_size(size)?;
+        }
+        Ok(style)
+    }
 }
 
 /// How the work is spread.
@@ -112,6 +143,8 @@ pub(crate) struct ReproduceArgs {
     /// No progress and no summary, only what was asked for and errors
     #[arg(long, short)]
     pub(crate) quiet: bool,
+    #[command(flatten)]
+    pub(crate) figures: FigureArgs,
     #[command(flatten)]
     pub(crate) threads: ThreadArgs,
 }

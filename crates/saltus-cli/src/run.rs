@@ -103,6 +103,7 @@ fn reproduce(args: &ReproduceArgs) -> Result<(), Ending> {
         json: args.json,
         out: Some(args.out.clone()),
         quiet: args.quiet,
+        figures: args.figures.clone(),
     };
     let how = How {
         output: &output,
@@ -126,13 +127,15 @@ fn reproduce(args: &ReproduceArgs) -> Result<(), Ending> {
 }
 
 impl How<'_> {
-    fn context<'a>(&self, bars: &'a Bars) -> RunContext<'a> {
-        RunContext {
+    fn context<'a>(&self, bars: &'a Bars) -> Result<RunContext<'a>, Ending> {
+        let figures = self.output.figures.style();
+        Ok(RunContext {
             threads: self.threads.threads.map_or(0, usize::from),
             stop: interrupt::flag(),
             watch: bars,
             keep: self.keep.clone(),
-        }
+            figures: figures.map_err(CommandError::from)?,
+        })
     }
 
     fn destination<'a>(
@@ -152,7 +155,7 @@ impl How<'_> {
 /// Makes the pieces of a shard, and prints which.
 fn share(request: &Request, study: &Study, shard: Shard, how: &How) -> Result<(), Ending> {
     let bars = Bars::new(how.output.quiet);
-    let context = how.context(&bars);
+    let context = how.context(&bars)?;
     if let Some(out) = &how.output.out {
         how.destination(request, study, &context).try_out(out)?;
     }
@@ -163,7 +166,7 @@ fn share(request: &Request, study: &Study, shard: Shard, how: &How) -> Result<()
 /// Asks, writes the folder of results if one was asked for, and prints the answer.
 fn answer(request: &Request, study: &Study, how: &How) -> Result<(), Ending> {
     let bars = Bars::new(how.output.quiet);
-    let context = how.context(&bars);
+    let context = how.context(&bars)?;
     let study = &request.study(study)?;
     let destination = how.destination(request, study, &context);
     let out = how.output.out.as_deref();

@@ -39,7 +39,7 @@ pub(crate) fn rerun(args: &RerunArgs) -> Result<(), Ending> {
         threads: args.threads.threads.map_or(0, usize::from),
         stop: interrupt::flag(),
         watch: &bars,
-        keep: None,
+        ..RunContext::default()
     };
     let rerun = SavedResult::open(&args.result)?.rerun(args.out.as_deref(), &context)?;
     tell(args.json, args.quiet, &rerun)?;

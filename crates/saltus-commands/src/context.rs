@@ -3,6 +3,7 @@
 use crate::failure::CommandError;
 use saltus::study::Control;
 use saltus_config::Study;
+use saltus_results::FigureStyle;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -17,6 +18,8 @@ pub struct RunContext<'a> {
     pub watch: &'a dyn Progress,
     /// Place of finished pieces, if the work can be cut; none by default.
     pub keep: Option<Pieces>,
+    /// The look of figures in a folder.
+    pub figures: FigureStyle,
 }
 
 /// Pieces of long work: they outlive an interruption, and may come from elsewhere.
@@ -88,6 +91,7 @@ impl Default for RunContext<'_> {
             stop: Arc::default(),
             watch: &Unwatched,
             keep: None,
+            figures: FigureStyle::default(),
         }
     }
 }

@@ -9,6 +9,7 @@ mod answer;
 mod attractors;
 mod basins;
 mod citations;
+mod colours;
 mod context;
 mod continuation;
 mod data;

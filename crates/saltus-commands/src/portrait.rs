@@ -1,6 +1,7 @@
 //! The phase portraits of a motion.
 
-use crate::per_jumper::{PANELS, panel_title};
+use crate::per_jumper::{PANELS, page, panel_title};
+use crate::words::{HEIGHT, VELOCITY};
 use saltus::model::{Observation, Section};
 use saltus_results::{Axis, Figure, Panel, Portrait};
 
@@ -9,9 +10,10 @@ pub(super) struct Motion<'a> {
     pub(super) title: String,
     /// The way, at equal times.
     pub(super) states: &'a [Observation],
+    /// The section while the way is followed.
     pub(super) section: &'a [Section],
-    /// Which points of the section.
-    pub(super) seen: String,
+    /// The section before, where the motion is still on its way.
+    pub(super) before: &'a [Section],
 }
 
 /// Of `jumpers` people, the first ones.
@@ -21,7 +23,7 @@ pub(super) fn portraits(motion: &Motion, jumpers: usize) -> Figure {
         return Figure::new(portrait(motion, 0, &motion.title)).plot_size(620.0, 460.0);
     }
     let panels = (0..shown).map(|i| portrait(motion, i, &panel_title(i, jumpers)));
-    Figure::grid(2, panels).title(&motion.title)
+    page(2, panels.collect()).title(&motion.title)
 }
 
 fn portrait(motion: &Motion, jumper: usize, title: &str) -> Panel {
@@ -30,14 +32,20 @@ fn portrait(motion: &Motion, jumper: usize, title: &str) -> Panel {
         states.map(|state| value(state)[jumper]).collect()
     };
     let flying: Vec<bool> = of(|s| &s.prf).iter().map(|&force| force == 0.0).collect();
-    let z: Vec<f64> = motion.section.iter().map(|point| point.z[jumper]).collect();
-    let v: Vec<f64> = motion.section.iter().map(|point| point.v[jumper]).collect();
-    Portrait::new(
-        title,
-        Axis::new("Height z/η (-)"),
-        Axis::new("Velocity ż/(η ω_h) (-)"),
-    )
-    .marked_path(("Contact", "Flight"), of(|s| &s.z), of(|s| &s.v), &flying)
-    .points(&motion.seen, z, v)
-    .into()
+    let points = |section: &[Section]| -> (Vec<f64>, Vec<f64>) {
+        let states = section
+            .iter()
+            .map(|point| (point.z[jumper], point.v[jumper]));
+        states.unzip()
+    };
+    let ((z, v), (z_before, v_before)) = (points(motion.section), points(motion.before));
+    let before = match motion.before {
+        [] => "",
+        _ => "Before: transient",
+    };
+    Portrait::new(title, Axis::new(HEIGHT), Axis::new(VELOCITY))
+        .marked_path(("Contact", "Flight"), of(|s| &s.z), of(|s| &s.v), &flying)
+        .faint(before, z_before, v_before)
+        .points("At $cos Ωt = 1$", z, v)
+        .into()
 }

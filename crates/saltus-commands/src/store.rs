@@ -3,7 +3,9 @@
 use crate::context::RunContext;
 use crate::failure::CommandError;
 use saltus_config::Study;
-use saltus_results::{Dataset, Figure, Manifest, ResultFolder, ResultsError, csv, shown};
+use saltus_results::{
+    Dataset, Figure, FigureStyle, Manifest, ResultFolder, ResultsError, csv, shown,
+};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -52,6 +54,7 @@ impl dyn Store + '_ {
 #[derive(Debug)]
 pub struct Folder {
     inner: ResultFolder,
+    figures: FigureStyle,
     stop: Arc<AtomicBool>,
 }
 
@@ -74,12 +77,23 @@ impl Folder {
     ) -> Result<Self, CommandError> {
         let mut inner = ResultFolder::stage(dir)?;
         match about {
-            Some(about) => inner.about(about),
+            Some(mut about) => {
+                // for `rerun`, which draws them so again
+                if context.figures != FigureStyle::default() {
+                    about["figures"] = serde_json::json!(context.figures);
+                }
+                inner.about(about);
+            }
             None => refuse_answer(dir)?,
         }
         inner.write("study.toml", study.to_toml())?;
         let stop = Arc::clone(&context.stop);
-        Ok(Self { inner, stop })
+        let figures = context.figures;
+        Ok(Self {
+            inner,
+            figures,
+            stop,
+        })
     }
 
     /// Moves everything into place.
@@ -121,7 +135,9 @@ impl Store for Folder {
 
     fn put_figure(&mut self, name: &str, figure: &Figure) -> Result<(), CommandError> {
         self.check()?;
+        let figure = figure.clone().style(self.figures);
         self.inner.write(&format!("{name}.svg"), figure.svg())?;
+        self.inner.write(&format!("{name}.pdf"), figure.pdf())?;
         let png = figure.png(PNG_SCALE)?;
         Ok(self.inner.write(&format!("{name}.png"), png)?)
     }

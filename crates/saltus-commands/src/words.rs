@@ -3,6 +3,7 @@
 use crate::failure::CommandError;
 use saltus::model::{Contact, Model};
 use saltus_config::{Parameter, Study};
+use saltus_results::Axis;
 
 /// Refuses a key that asks for more Lyapunov exponents than there are; `zero` says what 0 means there.
 pub(crate) fn too_many_exponents(
@@ -23,7 +24,7 @@ pub(crate) fn too_many_exponents(
 pub(crate) fn setting(study: &Study, model: &Model) -> String {
     let hertz = model.scales().omega / std::f64::consts::TAU;
     match study.jumper.as_slice() {
-        [one] => format!("ζ_h = {}, base {hertz:.4} Hz", one.damping_ratio),
+        [one] => format!("$ζ_h$ = {}, base {hertz:.4} Hz", one.damping_ratio),
         _ => format!("base {hertz:.4} Hz"),
     }
 }
@@ -36,6 +37,22 @@ pub(crate) fn base_in_title(study: &Study, parameter: Option<&Parameter>) -> Str
     omega.map_or(String::new(), |omega| {
         format!("base {:.4} Hz, ", omega / std::f64::consts::TAU)
     })
+}
+
+/// Axis labels of the section, in which symbols are typeset.
+pub(crate) const SECTION_HEIGHT: &str = "Height $z/η$ at $cos Ωt = 1$";
+pub(crate) const SECTION_VELOCITY: &str = "Velocity $ż/(η ω_h)$ at $cos Ωt = 1$";
+pub(crate) const HEIGHT: &str = "Height $z/η$";
+pub(crate) const VELOCITY: &str = "Velocity $ż/(η ω_h)$";
+
+/// The axis of a parameter: name, symbol, unit.
+pub(crate) fn axis(parameter: &Parameter) -> Axis {
+    let (label, symbol) = (parameter.label(), parameter.symbol());
+    Axis::new(capitalized(&label.replacen(
+        symbol,
+        &format!("${symbol}$"),
+        1,
+    )))
 }
 
 /// As the first word of a label.

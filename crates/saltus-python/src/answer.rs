@@ -77,6 +77,7 @@ pub(crate) fn ask(
             stop: stop.clone(),
             watch: &*watch,
             keep,
+            ..RunContext::default()
         };
         asked(request, &study, out.as_deref(), &context).map_err(|failure| error::of(&failure))
     })?;
@@ -118,6 +119,7 @@ pub(crate) fn compute(
             stop: stop.clone(),
             watch: &*watch,
             keep: None,
+            ..RunContext::default()
         };
         let made = request.compute(&study, &pieces, &context);
         let made = made.map_err(|failure| error::of(&failure))?;

@@ -34,6 +34,7 @@ pub(crate) fn rerun(
             stop: stop.clone(),
             watch: &*watch,
             keep: None,
+            ..RunContext::default()
         };
         let rerun = SavedResult::open(&path).and_then(|kept| kept.rerun(out.as_deref(), &context));
         let rerun = rerun.map_err(|failure| error::of(&failure))?;

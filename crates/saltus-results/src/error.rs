@@ -145,7 +145,7 @@ pub enum ResultsError {
     },
     /// A PNG of this size cannot be drawn.
     #[error(
-        "a PNG of {width} x {height} at scale {scale} cannot be drawn: choose a scale between 0.5 and 8"
+        "a PNG of {width} x {height} at scale {scale} cannot be drawn: choose a scale between 0.3 and 32"
     )]
     PngScale {
         /// Width of the figure (px).
@@ -154,6 +154,16 @@ pub enum ResultsError {
         height: f64,
         /// The refused scale (-).
         scale: f32,
+    },
+    /// A size of figures that is none.
+    #[error("the {what} is `{given}`; right is {right}")]
+    FigureStyle {
+        /// What was given.
+        what: &'static str,
+        /// The refused words.
+        given: String,
+        /// What would be right.
+        right: &'static str,
     },
     /// The rasteriser refused the figure.
     #[error("the figure could not be turned into a PNG: {reason}")]

@@ -38,7 +38,7 @@ pub use dataset::{Attribute, Dataset, Values, Variable};
 pub use error::ResultsError;
 pub use figure::{
     Axis, Bifurcation, BifurcationSet, Branches, Class, ClassMap, Cloud, Colour, ColourScale,
-    Curves, Figure, Grid, History, Panel, Portrait, Shares, ValueMap,
+    Curves, Figure, FigureStyle, Grid, History, Panel, Portrait, Shares, ValueMap,
 };
 pub use folder::{ResultFolder, write_file_atomically};
 pub use json::Document;

@@ -2,8 +2,9 @@
 
 use super::data::share;
 use super::{Found, name};
-use crate::per_jumper::{PANELS, panel_title};
-use crate::words::{base_in_title, capitalized};
+use crate::colours;
+use crate::per_jumper::{PANELS, page, panel_title};
+use crate::words::{self, SECTION_HEIGHT, SECTION_VELOCITY, base_in_title};
 use saltus::study::{BasinFraction, CountedAttractor};
 use saltus_config::Parameter;
 use saltus_results::{Axis, Cloud, Colour, Curves, Figure, Panel};
@@ -26,10 +27,10 @@ pub(super) fn attractors(found: &Found) -> Figure {
     let base = base_in_title(&found.study, found.parameter.as_ref());
     let each = found.parameter.as_ref().map_or("", |_| " per value");
     let starts = found.study.attractors.starts;
-    let title = format!("Attractors: {base}{starts} quasi-random first states{each}");
+    let title = format!("Attractors: {base}{starts} quasi-random initial conditions{each}");
     match <[Panel; 1]>::try_from(panels) {
         Ok([only]) => Figure::new(only).title(title),
-        Err(panels) => Figure::grid(1, panels).title(title),
+        Err(panels) => page(1, panels).title(title),
     }
 }
 
@@ -62,7 +63,16 @@ impl<'a> Series<'a> {
             colour,
             points: its[identity].clone(),
         };
-        let mut all: Vec<Self> = own.iter().zip(Colour::ATTRACTORS).map(series).collect();
+        let colours: Vec<Colour> = match found.parameter {
+            // along a parameter one attractor has many periods
+            Some(_) => Colour::ATTRACTORS.to_vec(),
+            None => {
+                let first = own.iter().filter_map(|&identity| its[identity].first());
+                let kinds = first.map(|(_, one)| one.entry.attractor.kind);
+                colours::of(kinds).into_iter().flatten().collect()
+            }
+        };
+        let mut all: Vec<Self> = own.iter().zip(colours).map(series).collect();
         all.extend(rest.first().map(|_| Series {
             label: "Other attractors".to_owned(),
             colour: Colour::GREY,
@@ -114,14 +124,14 @@ fn axis(found: &Found, parameter: &Parameter) -> Axis {
         (low.min(value), high.max(value))
     });
     let margin = 0.015 * (high - low);
-    Axis::new(capitalized(&parameter.label())).range(low - margin, high + margin)
+    words::axis(parameter).range(low - margin, high + margin)
 }
 
 fn cloud(found: &Found, parameter: &Parameter, series: &[Series], jumper: usize) -> Cloud {
     let cloud = Cloud::new(
         panel_title(jumper, found.jumpers()),
         axis(found, parameter),
-        Axis::new("Height z/η at cos Ωt = 1 (-)"),
+        Axis::new(SECTION_HEIGHT),
     );
     series
         .iter()
@@ -141,7 +151,7 @@ fn shares(found: &Found, parameter: &Parameter, series: &[Series]) -> Curves {
     let plot = Curves::new(
         "",
         axis(found, parameter),
-        Axis::new("Part of the first states (-)").range(-0.02, 1.02),
+        Axis::new("Part of the initial conditions").range(-0.02, 1.02),
     );
     let values = found.values();
     let plot = series.iter().fold(plot, |plot, one| {
@@ -193,8 +203,8 @@ fn hysteresis(found: &Found, plot: Curves) -> Curves {
 fn plane(found: &Found, series: &[Series], jumper: usize) -> Curves {
     let plot = Curves::new(
         panel_title(jumper, found.jumpers()),
-        Axis::new("Height z/η at cos Ωt = 1 (-)"),
-        Axis::new("Velocity ż/(η ω_h) at cos Ωt = 1 (-)"),
+        Axis::new(SECTION_HEIGHT),
+        Axis::new(SECTION_VELOCITY),
     );
     let mut order: Vec<&Series> = series.iter().collect();
     order.sort_by_key(|one| Reverse(one.samples(jumper).count()));

@@ -1,6 +1,7 @@
 //! The figures of basins.
 
 use super::Basins;
+use crate::colours;
 use crate::plane::Plane;
 use saltus::orbits::MotionKind;
 use saltus::study::Entry;
@@ -8,24 +9,16 @@ use saltus_results::{Class, ClassMap, Colour, Figure};
 
 /// A colour for each attractor, as far as there are some.
 pub(super) fn basins(plane: &Plane, basins: &Basins) -> Figure {
-    // the largest motion without a period is as dark as in a map of periods
-    let chaos = basins
-        .attractors
-        .iter()
-        .position(|entry| entry.attractor.kind.never_repeats());
-    let colours = Colour::SERIES.iter();
-    let mut shown: Vec<(usize, Colour)> = (0..basins.attractors.len())
-        .filter(|&place| Some(place) != chaos)
-        .zip(colours.copied())
-        .collect();
-    shown.extend(chaos.map(|place| (place, Colour::IRREGULAR)));
     // The colours that they have along the sweep of attractors, as far as there are some.
-    for (place, colour) in &mut shown {
-        let identity = basins.identity(*place);
-        let own = identity.and_then(|identity| Colour::ATTRACTORS.get(identity));
-        *colour = own.copied().unwrap_or(*colour);
-    }
-    shown.sort_by_key(|(place, _)| *place);
+    let kinds = basins.attractors.iter().map(|entry| entry.attractor.kind);
+    let colours = colours::of(kinds).into_iter().enumerate();
+    let shown: Vec<(usize, Colour)> = colours
+        .filter_map(|(place, colour)| {
+            let identity = basins.identity(place);
+            let own = identity.and_then(|identity| Colour::ATTRACTORS.get(identity));
+            Some((place, own.copied().or(colour)?))
+        })
+        .collect();
     let named = shown
         .iter()
         .map(|&(place, colour)| Class::new(label(place, &basins.attractors[place]), colour));
@@ -45,7 +38,7 @@ pub(super) fn basins(plane: &Plane, basins: &Basins) -> Figure {
     };
     let cells: Vec<u8> = basins.attractor.iter().enumerate().map(class).collect();
     let map = ClassMap::new(
-        "The start leads to",
+        "Basins of attraction",
         plane.figure_grid(),
         cells,
         named.chain(others),

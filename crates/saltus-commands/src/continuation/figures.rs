@@ -5,11 +5,11 @@ use super::diagram::track;
 use crate::answer::Take;
 use crate::failure::CommandError;
 use crate::kinds;
-use crate::per_jumper::{PANELS, panel_title};
-use crate::words::{base_in_title, capitalized};
+use crate::per_jumper::{PANELS, page, panel_title};
+use crate::words::{self, SECTION_HEIGHT, base_in_title};
 use saltus::study::SweepRow;
 use saltus_config::Parameter;
-use saltus_results::{Axis, BifurcationSet, Branches, Figure};
+use saltus_results::{Axis, BifurcationSet, Branches, Colour, Figure};
 
 pub(super) fn draw(found: &Found, take: Take) -> Result<(), CommandError> {
     take("branches", &diagram(found))?;
@@ -29,11 +29,11 @@ fn diagram(found: &Found) -> Figure {
         return Figure::new(branches(found, 0, &title));
     }
     let panels = (0..shown).map(|i| branches(found, i, &panel_title(i, jumpers)).into());
-    Figure::grid(1, panels).title(title)
+    page(1, panels.collect()).title(title)
 }
 
 fn axis(parameter: &Parameter, from: f64, to: f64) -> Axis {
-    Axis::new(capitalized(&parameter.label())).range(from, to)
+    words::axis(parameter).range(from, to)
 }
 
 fn branches(found: &Found, jumper: usize, title: &str) -> Branches {
@@ -41,7 +41,7 @@ fn branches(found: &Found, jumper: usize, title: &str) -> Branches {
     let mut diagram = Branches::new(
         title,
         axis(&found.question.parameter, table.from, table.to),
-        Axis::new("Height z/η at cos Ωt = 1 (-)"),
+        Axis::new(SECTION_HEIGHT),
     );
     if !found.cloud.is_empty() {
         let points = found.cloud.iter().flat_map(|row: &SweepRow| {
@@ -54,7 +54,10 @@ fn branches(found: &Found, jumper: usize, title: &str) -> Branches {
     for (limb, view) in found.limbs.iter().zip(&found.views) {
         let track = track(limb, view, jumper);
         let label = format!("Period {}", track.heights.len());
-        diagram = diagram.branch(label, track.values, &track.stable, track.heights);
+        let colour = Colour::of_period(track.heights.len() as u32);
+        diagram = diagram
+            .branch(label, track.values, &track.stable, track.heights)
+            .colour(colour);
         for (special, seen) in limb.branch.specials.iter().zip(&view.specials) {
             let heights: Vec<f64> = seen.section.iter().map(|point| point.z[jumper]).collect();
             let symbol = kinds::symbol(&special.kind);

@@ -37,7 +37,7 @@ pub(super) fn convergence(found: &Found) -> Figure {
             "Forcing periods of each of {replicas} replicas (-)"
         ))
         .logarithmic(),
-        Axis::new("Mean growth per forcing period (-)"),
+        Axis::new("Lyapunov exponent $λ$ per forcing period"),
     );
     let last = found.growth.exponents();
     let curves = last
@@ -56,7 +56,7 @@ pub(super) fn convergence(found: &Found) -> Figure {
                 with_error(whole.per_iterate, whole.standard_error, "±").replace('-', "\u{2212}");
             curves
                 .line(
-                    format!("λ_{} = {value}", k + 1),
+                    format!("$λ_{{{}}}$ = {value}", k + 1),
                     &periods[..],
                     of(|e| e.per_iterate),
                 )

@@ -3,26 +3,22 @@
 use crate::plane::{Layers, Plane, Status};
 use saltus_results::{Class, ClassMap, Colour, Figure};
 
-/// Periods with a colour of their own: doublings first, as they are the most frequent.
-const PERIODS: [u16; 9] = [1, 2, 4, 8, 3, 6, 5, 7, 16];
+/// Periods with a class of their own.
+const PERIODS: [u16; 8] = [1, 2, 3, 4, 5, 6, 8, 16];
 
 /// The periods, and what is not periodic.
 pub(super) fn periods(plane: &Plane, layers: &Layers) -> Figure {
-    let mut order: Vec<usize> = (0..PERIODS.len()).collect();
-    order.sort_by_key(|&i| PERIODS[i]);
-    let own = order.iter().map(|&i| {
-        let n = PERIODS[i];
+    let own = PERIODS.iter().map(|&n| {
         let label = match n {
             1 => "Every forcing period".to_owned(),
             n => format!("Every {n} periods"),
         };
-        Class::new(label, Colour::SERIES[i])
+        Class::new(label, Colour::of_period(n.into()))
     });
     let chaotic = format!("Chaotic{}", layers.tally().chaotic_for());
     let others = [
         Class::new("Another period up to 32", Colour::OTHER),
-        // the colour that the periods leave
-        Class::new("Quasi-periodic", Colour::SERIES[PERIODS.len()]),
+        Class::new("Quasi-periodic", Colour::QUASI_PERIODIC),
         Class::new(chaotic, Colour::IRREGULAR),
         Class::new("Not periodic", Colour::IRREGULAR),
         Class::new("Undecided", Colour::UNDECIDED),
@@ -30,9 +26,9 @@ pub(super) fn periods(plane: &Plane, layers: &Layers) -> Figure {
     ];
     let other = PERIODS.len() as u8;
     let class = |(&status, &period): (&Status, &u16)| match status {
-        Status::Periodic => order
+        Status::Periodic => PERIODS
             .iter()
-            .position(|&i| PERIODS[i] == period)
+            .position(|&own| own == period)
             .map_or(other, |place| place as u8),
         Status::QuasiPeriodic => other + 1,
         Status::Chaotic => other + 2,
@@ -47,7 +43,7 @@ pub(super) fn periods(plane: &Plane, layers: &Layers) -> Figure {
         .map(class)
         .collect();
     let map = ClassMap::new(
-        "The motion repeats",
+        "Long-term motion",
         plane.figure_grid(),
         cells,
         own.chain(others),

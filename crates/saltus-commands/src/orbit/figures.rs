@@ -18,7 +18,7 @@ pub(super) fn draw(found: &Found, take: Take) -> Result<(), CommandError> {
             title: title(found, "Orbit"),
             states: &found.portrait.history.states,
             section: &found.portrait.section,
-            seen: "At cos Ωt = 1".to_owned(),
+            before: &[],
         };
         take("portrait", &portrait::portraits(&motion, jumpers))?;
     }
@@ -40,8 +40,8 @@ fn multipliers(found: &Found) -> Figure {
     let (sin, cos): (Vec<f64>, Vec<f64>) = circle.unzip();
     let mut plane = Portrait::new(
         title(found, "Multipliers"),
-        axis("Real part (-)"),
-        axis("Imaginary part (-)"),
+        axis("Real part"),
+        axis("Imaginary part"),
     )
     .path("Unit circle", cos, sin);
     for (label, outside) in [("Outside", true), ("Inside", false)] {

@@ -27,9 +27,9 @@ pub(crate) fn layers_figure(plane: &Plane, layers: &Layers) -> Figure {
         map(
             "Contact",
             first(&layers.contact_ratio),
-            "Part of the time on the floor (-)",
+            "Part of the time on the floor",
         ),
-        map("Computed", run, "Forcing periods run (-)"),
+        map("Computed", run, "Forcing periods run"),
     ];
     Figure::grid(2, panels)
 }

@@ -11,11 +11,10 @@ use saltus::hybrid::Point;
 use saltus::model::{Model, ModelError};
 use saltus::study::{Control, Grid, Search};
 use saltus_config::{AxisTable, Parameter, Study};
-use saltus_results::Axis;
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
-use crate::words::capitalized;
+use crate::words;
 pub(super) use cell::{Cell, Loss};
 pub(super) use data::data;
 pub(super) use figure::layers_figure;
@@ -75,7 +74,7 @@ impl Plane {
 
     /// The pixels as a figure has them.
     pub(super) fn figure_grid(&self) -> saltus_results::Grid {
-        let axis = |axis: &PlaneAxis| Axis::new(capitalized(&axis.parameter.label()));
+        let axis = |axis: &PlaneAxis| words::axis(&axis.parameter);
         saltus_results::Grid::new(
             axis(&self.x),
             self.grid.x.clone(),

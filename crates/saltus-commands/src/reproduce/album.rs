@@ -26,7 +26,7 @@ impl Album<'_> {
         }
     }
 
-    /// Puts a figure into the folder (SVG, PNG) and onto the page.
+    /// Puts a figure into the folder (SVG, PNG, PDF) and onto the page.
     pub(super) fn show(
         &mut self,
         name: &str,
@@ -35,8 +35,8 @@ impl Album<'_> {
         data: &[(&str, &str)],
     ) -> Result<(), CommandError> {
         self.folder.figure(name, figure)?;
-        let (svg, png) = (format!("{name}.svg"), format!("{name}.png"));
-        let mut files = vec![("SVG", svg.as_str()), ("PNG", png.as_str())];
+        let [svg, png, pdf] = ["svg", "png", "pdf"].map(|kind| format!("{name}.{kind}"));
+        let mut files = vec![("SVG", &svg[..]), ("PNG", &png), ("PDF", &pdf)];
         files.extend(data);
         let text = figure.svg();
         self.with(|page| {

@@ -6,9 +6,10 @@ use saltus_results::{Axis, Branches, Colour, Curves, Figure, Panel};
 use super::Results;
 use super::album::Album;
 use super::data::{details, panels};
-use super::figures::{DAMPING, HEIGHT, points};
+use super::figures::{DAMPING, points};
 use crate::failure::CommandError;
 use crate::kinds;
+use crate::words::HEIGHT;
 
 pub(super) fn write(album: &mut Album<'_>, results: &Results) -> Result<(), CommandError> {
     album.section("Why the transitions are where they are");
@@ -112,7 +113,7 @@ fn figure(results: &Results) -> Figure {
 }
 
 fn diagram(cloud: &Diagram, panel: &Detail) -> Branches {
-    let title = format!("Ω = {:.1} ω_h", cloud.ratio);
+    let title = format!("$Ω$ = {:.1} $ω_h$", cloud.ratio);
     let (mut x, mut y) = points(cloud, 0);
     let (more_x, more_y) = points(cloud, 1);
     x.extend(more_x);
@@ -124,7 +125,7 @@ fn diagram(cloud: &Diagram, panel: &Detail) -> Branches {
         let (x, curves) = (limb.damping_ratio.clone(), limb.heights.clone());
         diagram = diagram
             .branch(label, x, &limb.stable, curves)
-            .colour(colour(limb.period));
+            .colour(Colour::of_period(limb.period as u32));
     }
     let seen = panel
         .transitions
@@ -137,17 +138,10 @@ fn diagram(cloud: &Diagram, panel: &Detail) -> Branches {
     })
 }
 
-/// The same for a period in all panels, which share a legend.
-fn colour(period: usize) -> Colour {
-    let known = [1, 2, 4, 8, 6, 12, 24];
-    let place = known.iter().position(|&other| other == period);
-    Colour::CURVES[place.unwrap_or(known.len()) % Colour::CURVES.len()]
-}
-
 fn exponents(results: &Results) -> Figure {
     let panel = |panel: &PanelExponents| {
-        let title = format!("Ω = {:.1} ω_h", panel.ratio);
-        let axis = Axis::new("Exponent λ (1/period)");
+        let title = format!("$Ω$ = {:.1} $ω_h$", panel.ratio);
+        let axis = Axis::new("Exponent $λ$ (1/period)");
         let zeta: Vec<f64> = panel.values.iter().map(|(zeta, _)| *zeta).collect();
         let value = |side: f64| -> Vec<f64> {
             let at = panel.values.iter();
@@ -155,7 +149,7 @@ fn exponents(results: &Results) -> Figure {
                 .collect()
         };
         let curves = Curves::new(title, Axis::new(DAMPING), axis)
-            .line("λ of the rising sweep", zeta, value(0.0))
+            .line("$λ$ of the rising sweep", zeta, value(0.0))
             .band("± standard error", value(-1.0), value(1.0))
             .level("Zero", 0.0);
         Panel::from(curves)

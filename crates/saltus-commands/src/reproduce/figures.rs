@@ -6,10 +6,9 @@ use saltus_paper::{CaseResult, Diagram, InertiaRow, RATIOS};
 use saltus_results::{Axis, Cloud, Figure, History, Panel, Portrait};
 
 use super::Results;
+use crate::words::{HEIGHT, VELOCITY};
 
-pub(super) const DAMPING: &str = "Damping ratio ζ_h (-)";
-pub(super) const HEIGHT: &str = "Height z/η (-)";
-const SPEED: &str = "Velocity ż/(η ω_h) (-)";
+pub(super) const DAMPING: &str = "Damping ratio $ζ_h$";
 
 /// Fig. 2 under one reading of omega_h: all passes of the paper's law.
 pub(super) fn fig2(results: &Results, reference: FrequencyReference) -> Figure {
@@ -20,7 +19,7 @@ pub(super) fn fig2(results: &Results, reference: FrequencyReference) -> Figure {
     });
     Figure::grid(1, panels)
         .title(format!(
-            "Fig. 2 with ω_h the {} frequency of the body",
+            "Fig. 2 with $ω_h$ the {} frequency of the body",
             reference.name()
         ))
         .plot_size(900.0, 300.0)
@@ -37,7 +36,7 @@ fn find(
 }
 
 fn panel(ratio: f64, hertz: f64) -> Cloud {
-    let title = format!("Ω = {ratio:.1} ω_h ({hertz:.4} Hz)");
+    let title = format!("$Ω$ = {ratio:.1} $ω_h$ ({hertz:.4} Hz)");
     Cloud::new(title, Axis::new(DAMPING), Axis::new(HEIGHT))
 }
 
@@ -56,9 +55,9 @@ fn passes(diagram: &Diagram) -> Cloud {
 /// Entry of the legend.
 fn pass_name(pass: &Pass) -> String {
     match pass {
-        Pass::Up => "ζ_h rising, state carried on".into(),
-        Pass::Down => "ζ_h falling, state carried on".into(),
-        Pass::Start { z, v } => format!("from z/η = {z}, ż/(η ω_h) = {v}"),
+        Pass::Up => "$ζ_h$ rising".into(),
+        Pass::Down => "$ζ_h$ falling, where it differs".into(),
+        Pass::Start { z, v } => format!("from $z/η$ = {z}, $ż/(η ω_h)$ = {v}, where it differs"),
     }
 }
 
@@ -111,7 +110,7 @@ pub(super) fn inertia(results: &Results) -> Figure {
         let (fx, fy) = collect(|row| &row.full.0);
         let (cx, cy) = collect(|row| &row.condensed.0);
         let cloud = Cloud::new(
-            format!("Ω = {ratio:.1} ω_h"),
+            format!("$Ω$ = {ratio:.1} $ω_h$"),
             Axis::new(DAMPING),
             Axis::new(HEIGHT),
         )
@@ -131,7 +130,7 @@ pub(super) fn portraits(results: &Results) -> Figure {
         .iter()
         .map(|result| Panel::from(portrait(result)));
     Figure::grid(2, panels)
-        .title("Fig. 3: phase portraits and Poincaré points at cos Ωt = 1")
+        .title("Fig. 3: phase portraits and Poincaré points at $cos Ωt = 1$")
         .plot_size(460.0, 330.0)
 }
 
@@ -140,11 +139,11 @@ fn heading(result: &CaseResult) -> String {
     let exponent = result.verdict.exponent;
     let (mean, error) = (exponent.per_iterate, exponent.standard_error);
     let ours = match result.recurrence {
-        Some(n) => format!("{n}T"),
-        None => format!("λ = {mean:.3} ± {error:.3} per T"),
+        Some(n) => format!("{n}$T$"),
+        None => format!("$λ$ = {mean:.3} ± {error:.3} per $T$"),
     };
     format!(
-        "Ω = {:.1} ω_h, ζ_h = {:.2}: {ours}",
+        "$Ω$ = {:.1} $ω_h$, $ζ_h$ = {:.2}: {ours}",
         case.ratio, case.damping_ratio
     )
 }
@@ -158,7 +157,7 @@ fn portrait(result: &CaseResult) -> Portrait {
     let kept = result.recurrence.map_or(usize::MAX, |n| n as usize);
     let section = result.trajectory.section.iter().take(kept);
     let points: (Vec<f64>, Vec<f64>) = section.map(|s| (s.z[0], s.v[0])).unzip();
-    Portrait::new(heading(result), Axis::new(HEIGHT), Axis::new(SPEED))
+    Portrait::new(heading(result), Axis::new(HEIGHT), Axis::new(VELOCITY))
         .marked_path(("on the floor", "in flight"), z, v, &flight)
         .points("Poincaré points", points.0, points.1)
 }
@@ -200,8 +199,8 @@ fn force(result: &CaseResult) -> History {
         .collect();
     History::new(
         heading(result),
-        Axis::new("Time t/T (-)"),
-        Axis::new("Force PRF/(m_h g) (-)"),
+        Axis::new("Time $t/T$"),
+        Axis::new("Force $PRF/(m_h g)$"),
     )
     .shade("in flight", &flights)
     .curve("plate reaction force", t, prf)

@@ -13,6 +13,7 @@ use serde::Serialize;
 use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
+use std::sync::Arc;
 
 /// Name of the new result in its temporary folder.
 const RESULT: &str = "result";
@@ -82,6 +83,15 @@ impl SavedResult {
     ) -> Result<Rerun, CommandError> {
         let request = &self.request;
         let study = request.study(&self.study)?;
+        // figures are drawn as they were
+        let figures = serde_json::from_value(self.manifest.about["figures"].clone());
+        let context = &RunContext {
+            threads: context.threads,
+            stop: Arc::clone(&context.stop),
+            watch: context.watch,
+            keep: context.keep.clone(),
+            figures: figures.unwrap_or_default(),
+        };
         let destination = Destination {
             request,
             study: &study,

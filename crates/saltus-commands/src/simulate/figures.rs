@@ -3,7 +3,7 @@
 use super::{Found, flights};
 use crate::answer::Take;
 use crate::failure::CommandError;
-use crate::per_jumper::{PANELS, panel_title};
+use crate::per_jumper::{PANELS, page, panel_title};
 use crate::portrait::{self, Motion};
 use crate::words::setting;
 use saltus_results::{Axis, Curves, Figure, History, Panel};
@@ -13,21 +13,37 @@ pub(super) fn draw(found: &Found, take: Take) -> Result<(), CommandError> {
         return take("section", &amplitudes(found));
     }
     take("portrait", &portraits(found))?;
-    take("history", &histories(found))
+    if found.jumpers() <= FEW {
+        return take("history", &histories(found, &[force, heights]));
+    }
+    take("history", &histories(found, &[force]))?;
+    take("heights", &histories(found, &[heights]))
 }
 
-/// Periods that the time history covers; less than one counts as one.
+/// People whose forces and heights stand in one figure.
+const FEW: usize = 3;
+
+/// Periods that the time history covers, begun ones too.
+fn periods(found: &Found) -> usize {
+    found
+        .trajectory
+        .history
+        .time
+        .len()
+        .div_ceil(super::POINTS as usize)
+}
+
 fn covered(found: &Found) -> String {
-    let points = found.trajectory.history.time.len();
-    match points.div_ceil(super::POINTS as usize) {
+    match periods(found) {
         1 => "last period".to_owned(),
         periods => format!("last {periods} periods"),
     }
 }
 
 fn portraits(found: &Found) -> Figure {
-    let section = &found.trajectory.section;
-    let first = found.transient() + 1;
+    let section = found.trajectory.section.get(found.transient()..);
+    let section = section.unwrap_or_default();
+    let (before, section) = section.split_at(section.len().saturating_sub(periods(found)));
     let motion = Motion {
         title: format!(
             "Phase portrait: {}, {}",
@@ -35,31 +51,32 @@ fn portraits(found: &Found) -> Figure {
             covered(found)
         ),
         states: &found.trajectory.history.states,
-        section: section.get(found.transient()..).unwrap_or_default(),
-        seen: format!("At cos Ωt = 1, periods {first} to {}", section.len()),
+        section,
+        before,
     };
     portrait::portraits(&motion, found.jumpers())
 }
 
-fn histories(found: &Found) -> Figure {
+fn histories(found: &Found, kinds: &[fn(&Found, usize) -> Panel]) -> Figure {
     let title = format!(
         "Time history: {}, {}",
         setting(&found.study, &found.model),
         covered(found)
     );
     let shown = found.jumpers().min(PANELS);
-    let mut panels: Vec<Panel> = Vec::new();
-    for jumper in 0..shown {
-        panels.extend([force(found, jumper), heights(found, jumper)]);
-    }
-    Figure::grid(1, panels).title(title).plot_size(820.0, 230.0)
+    let panels = (0..shown).flat_map(|jumper| kinds.iter().map(move |panel| panel(found, jumper)));
+    let figure = match found.jumpers() {
+        ..=FEW => Figure::grid(1, panels).plot_size(820.0, 230.0),
+        _ => page(1, panels.collect()),
+    };
+    figure.title(title)
 }
 
 fn history(found: &Found, jumper: usize, y: &str) -> History {
     let from = found.trajectory.history.time.first().copied();
     History::new(
         panel_title(jumper, found.jumpers()),
-        Axis::new("Time t (s)"),
+        Axis::new("Time $t$ (s)"),
         Axis::new(y),
     )
     .shade("Flight", &flights::of(found, jumper, from.unwrap_or(0.0)))
@@ -68,7 +85,7 @@ fn history(found: &Found, jumper: usize, y: &str) -> History {
 fn force(found: &Found, jumper: usize) -> Panel {
     let history_of = &found.trajectory.history;
     let force: Vec<f64> = history_of.states.iter().map(|s| s.prf[jumper]).collect();
-    history(found, jumper, "Reaction force/weight (-)")
+    history(found, jumper, "Reaction force/weight")
         .curve("Plate reaction force", &history_of.time[..], force)
         .level("Body weight", 1.0)
         .into()
@@ -83,7 +100,7 @@ fn heights(found: &Found, jumper: usize) -> Panel {
     history(found, jumper, "Height (m)")
         // the legend is common, so the colour of the force means the force
         .curve("", [], [])
-        .curve("Body z", &history_of.time[..], body)
+        .curve("Body $z$", &history_of.time[..], body)
         .curve("Floor under the feet", &history_of.time[..], floor)
         .into()
 }
@@ -99,8 +116,8 @@ fn amplitudes(found: &Found) -> Figure {
             "Empty plate, once per forcing period: {}",
             setting(&found.study, &found.model)
         ),
-        Axis::new("Forcing period (-)"),
-        Axis::new("Amplitude r/h (-)"),
+        Axis::new("Forcing period"),
+        Axis::new("Amplitude $r/h$"),
     );
     let terms = found
         .model

@@ -2,8 +2,8 @@
 
 use super::data::labels;
 use super::{Found, Row};
-use crate::per_jumper::{PANELS, panel_title};
-use crate::words::{base_in_title, capitalized};
+use crate::per_jumper::{PANELS, page, panel_title};
+use crate::words::{SECTION_HEIGHT, axis, base_in_title, capitalized};
 use saltus::orbits::Exponent;
 use saltus::study::Pass;
 use saltus_results::{Axis, Cloud, Curves, Figure, Panel};
@@ -15,7 +15,7 @@ pub(super) fn bifurcation(found: &Found) -> Figure {
         return Figure::new(cloud(found, 0, &title));
     }
     let panels = (0..shown).map(|i| cloud(found, i, &panel_title(i, found.jumpers())).into());
-    Figure::grid(1, panels).title(title)
+    page(1, panels.collect()).title(title)
 }
 
 fn setting(found: &Found) -> String {
@@ -29,11 +29,7 @@ fn setting(found: &Found) -> String {
 }
 
 fn cloud(found: &Found, jumper: usize, title: &str) -> Cloud {
-    let cloud = Cloud::new(
-        title,
-        Axis::new(capitalized(&found.parameter.label())),
-        Axis::new("Height z/η at cos Ωt = 1 (-)"),
-    );
+    let cloud = Cloud::new(title, axis(&found.parameter), Axis::new(SECTION_HEIGHT));
     let passes = found.sweep.passes.iter().enumerate();
     passes.fold(cloud, |cloud, (index, pass)| {
         let points = found.rows_of(index).flat_map(|row| {
@@ -72,8 +68,8 @@ fn spectrum(found: &Found, title: &str, rows: &[&Row]) -> Curves {
     let values: Vec<f64> = rows.iter().map(|row| row.run.value).collect();
     let plot = Curves::new(
         title,
-        Axis::new(capitalized(&found.parameter.label())),
-        Axis::new("Mean growth per forcing period (-)"),
+        axis(&found.parameter),
+        Axis::new("Lyapunov exponent $λ$ per forcing period"),
     );
     let count = (found.table.exponents as usize).min(CURVES);
     let plot = (0..count).fold(plot, |plot, k| {
@@ -81,12 +77,16 @@ fn spectrum(found: &Found, title: &str, rows: &[&Row]) -> Curves {
             let rates = rows.iter().map(|row| row.exponents.get(k));
             rates.map(|rate| rate.map_or(f64::NAN, value)).collect()
         };
-        plot.line(format!("λ_{}", k + 1), &values[..], of(|e| e.per_iterate))
-            .band(
-                "± one standard error",
-                of(|e| e.per_iterate - e.standard_error),
-                of(|e| e.per_iterate + e.standard_error),
-            )
+        plot.line(
+            format!("$λ_{{{}}}$", k + 1),
+            &values[..],
+            of(|e| e.per_iterate),
+        )
+        .band(
+            "± one standard error",
+            of(|e| e.per_iterate - e.standard_error),
+            of(|e| e.per_iterate + e.standard_error),
+        )
     });
     // all of them, so that a colour means the same in every figure
     labels().iter().fold(plot.level("Zero", 0.0), |plot, name| {
@@ -110,6 +110,10 @@ fn around(values: &[f64], i: usize) -> (f64, f64) {
 /// Entry of the legend.
 fn label(found: &Found, pass: &Pass) -> String {
     let symbol = found.parameter.symbol();
+    let differs = match pass == &found.sweep.passes[0] {
+        true => "",
+        false => ", where it differs",
+    };
     match *pass {
         Pass::Up | Pass::Down => {
             let values = &found.sweep.values;
@@ -120,8 +124,8 @@ fn label(found: &Found, pass: &Pass) -> String {
             } else {
                 "falling"
             };
-            format!("{symbol} {way}, state carried on")
+            format!("${symbol}$ {way}{differs}")
         }
-        Pass::Start { z, v } => format!("Anew from z/η = {z}, ż/(η ω_h) = {v}"),
+        Pass::Start { z, v } => format!("From $z/η$ = {z}, $ż/(η ω_h)$ = {v}{differs}"),
     }
 }

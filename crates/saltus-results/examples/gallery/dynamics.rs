@@ -309,9 +309,9 @@ fn henon_map() -> ClassMap {
         }
     }
     let classes = [
-        Class::new("Period 1", Colour::SERIES[0]),
-        Class::new("Period 2", Colour::SERIES[1]),
-        Class::new("Period 4", Colour::SERIES[3]),
+        Class::new("Period 1", Colour::of_period(1)),
+        Class::new("Period 2", Colour::of_period(2)),
+        Class::new("Period 4", Colour::of_period(4)),
         Class::new("Other", Colour::IRREGULAR),
         Class::new("No attractor", Colour::MISSING),
     ];

@@ -354,7 +354,7 @@ fn classes() -> Vec<Class> {
     let periods = [1, 2, 3, 4, 5, 6, 8, 12, 16];
     let mut classes: Vec<Class> = periods
         .iter()
-        .zip(Colour::SERIES)
+        .zip([1, 2, 4, 8, 16, 3, 6, 5].map(Colour::of_period))
         .map(|(period, colour)| Class::new(format!("Period {period}"), colour))
         .collect();
     classes.extend([

@@ -1,13 +1,9 @@
 //! Axes: from data in the user's units to pixels, with ticks a person reads without effort.
 //!
-//! The mapping is ours and not kuva's, for two reasons found in kuva 0.6: its logarithmic map stops
-//! at 1e-10, and its linear map collapses a range shorter than 2.2e-16. Errors and small amplitudes
-//! live there. A [`Scale`] therefore hands kuva tame numbers: decades, or values divided by a power
-//! of ten that the axis label states.
+//! Errors and small amplitudes span many orders of magnitude, so an axis is measured in units of its own: decades, or
+//! values divided by a power of ten that the label states.
 
-use kuva::render::layout::TickFormat;
-use kuva::render::render_utils::compute_tick_step;
-use std::sync::Arc;
+use super::lettering::printable;
 
 /// An axis: its label, limits and whether it shows decades.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,10 +14,12 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// An axis with a label that carries its unit, as "Velocity (m/s)"; limits follow the data.
+    /// An axis with a label that carries its unit, as "Velocity (m/s)"; limits follow the data. Symbols stand between
+    /// two `$`, as in "Damping ratio $ζ_h$"; the unit (-) of a pure number is not shown.
     pub fn new(label: impl Into<String>) -> Self {
+        let label: String = label.into();
         Self {
-            label: label.into(),
+            label: label.strip_suffix(" (-)").unwrap_or(&label).to_owned(),
             range: None,
             logarithmic: false,
         }
@@ -68,10 +66,38 @@ impl Extent {
         }
     }
 
+    /// The values of both.
+    pub(crate) fn with(self, other: Self) -> Self {
+        Self {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+        }
+    }
+
+    /// A single value where all agree to [`NOISE`]: colours from end to end would magnify rounding.
+    pub(crate) fn unless_noise(self) -> Self {
+        let middle = f64::midpoint(self.low, self.high);
+        if self.high - self.low > NOISE * middle.abs() {
+            return self;
+        }
+        Self {
+            low: middle,
+            high: middle,
+        }
+    }
+
     /// The least and the largest value; `None` if there were none.
     pub(crate) fn limits(self) -> Option<(f64, f64)> {
         (self.low <= self.high).then_some((self.low, self.high))
     }
+}
+
+/// A tick: its number in multiples of the step, its place and its text.
+#[derive(Clone, Debug)]
+pub(crate) struct Tick {
+    pub(crate) number: i64,
+    pub(crate) pixel: f64,
+    pub(crate) text: String,
 }
 
 /// A resolved axis: data to axis units (decades, or multiples of `unit`) to pixels.
@@ -91,6 +117,8 @@ pub(crate) struct Scale {
     slope: f64,
 }
 
+/// Relative difference of values that a map shows as equal.
+const NOISE: f64 = 1e-5;
 /// Largest magnitude drawn; beyond it differences overflow.
 const LARGEST: f64 = 1e300;
 /// Magnitudes below this are drawn as zero: their differences are subnormal.
@@ -111,7 +139,7 @@ impl Scale {
         scale.step = if axis.logarithmic {
             ((scale.high - scale.low) / 8.0).ceil().max(1.0)
         } else {
-            compute_tick_step(scale.low, scale.high, ticks.max(2))
+            tick_step((scale.high - scale.low) / ticks.max(2) as f64)
         };
         scale
     }
@@ -178,54 +206,64 @@ impl Scale {
     /// Value to pixel; `None` for a value that is not finite or has no logarithm.
     pub(crate) fn pixel(&self, value: f64) -> Option<f64> {
         self.units(value)
-            .map(|units| self.origin + (units - self.low) * self.slope)
+            .map(|units| self.at(units))
             .filter(|pixel| pixel.is_finite())
     }
 
     /// The label, with the power of ten that the ticks leave out.
     pub(crate) fn label(&self, axis: &Axis) -> String {
-        let label = super::text::printable(&axis.label);
+        let label = printable(&axis.label);
         if self.exponent == 0 {
             return label;
         }
-        let power = format!("10{}", superscript(self.exponent));
+        let power = power(self.exponent);
         match label
             .strip_suffix(')')
             .and_then(|label| label.rsplit_once('('))
         {
-            Some((quantity, "-")) => format!("{quantity}({power})"),
             Some((quantity, unit)) => format!("{quantity}({power} {unit})"),
             None => format!("{label} ({power})"),
         }
     }
 
-    /// Format in which kuva must write the ticks.
-    pub(crate) fn tick_format(&self) -> TickFormat {
-        let scale = self.clone();
-        TickFormat::Custom(Arc::new(move |units| scale.tick(units)))
-    }
-
-    /// The ticks as pixels and texts, for an axis that kuva does not draw.
-    pub(crate) fn ticks(&self) -> Vec<(f64, String)> {
+    /// The ticks within the limits.
+    pub(crate) fn ticks(&self) -> Vec<Tick> {
         // A tick at a limit must not be lost to rounding.
         let hair = 1e-9 * (self.high - self.low) / self.step;
         let first = (self.low / self.step - hair).ceil() as i64;
         let last = (self.high / self.step + hair).floor() as i64;
-        (first..=last.min(first + 50))
-            .map(|number| number as f64 * self.step)
-            .map(|units| {
-                (
-                    self.origin + (units - self.low) * self.slope,
-                    self.tick(units),
-                )
-            })
-            .collect()
+        let tick = |number: i64| {
+            let units = number as f64 * self.step;
+            Tick {
+                number,
+                pixel: self.at(units),
+                text: self.tick(units),
+            }
+        };
+        (first..=last.min(first + 50)).map(tick).collect()
+    }
+
+    /// Pixels of the ticks without numbers: two to nine times each power of ten.
+    pub(crate) fn minor(&self) -> Vec<f64> {
+        if !self.logarithmic || self.step > 1.0 {
+            return Vec::new();
+        }
+        let decades = self.low.floor() as i32..=self.high.ceil() as i32;
+        let between = |decade: i32| (2..10).map(move |n| f64::from(decade) + f64::from(n).log10());
+        let inside = |units: &f64| (self.low..=self.high).contains(units);
+        let units = decades.flat_map(between).filter(inside);
+        units.map(|units| self.at(units)).collect()
+    }
+
+    /// Axis units to pixel.
+    fn at(&self, units: f64) -> f64 {
+        self.origin + (units - self.low) * self.slope
     }
 
     /// The text at a tick: all with the same number of decimals, or as powers of ten.
     fn tick(&self, units: f64) -> String {
         if self.logarithmic {
-            return format!("10{}", superscript(units.round() as i32));
+            return power(units.round() as i32);
         }
         let decimals = decimals(self.step);
         let text = format!("{units:.decimals$}");
@@ -280,14 +318,22 @@ fn decimals(step: f64) -> usize {
         .unwrap_or(12)
 }
 
-/// A number raised: −3 becomes ⁻³.
-fn superscript(power: i32) -> String {
-    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    power
-        .to_string()
-        .chars()
-        .map(|c| c.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize]))
-        .collect()
+/// A power of ten with its exponent raised.
+fn power(exponent: i32) -> String {
+    let sign = if exponent < 0 { "\u{2212}" } else { "" };
+    format!("$10^{{{sign}{}}}$", exponent.unsigned_abs())
+}
+
+/// The distance of ticks nearest to `rough` that reads well: 1, 2 or 5 times a power of ten.
+fn tick_step(rough: f64) -> f64 {
+    let decade = 10f64.powi(rough.log10().floor() as i32);
+    let nearest = match rough / decade {
+        share if share < 1.5 => 1.0,
+        share if share < 3.5 => 2.0,
+        share if share < 7.5 => 5.0,
+        _ => 10.0,
+    };
+    nearest * decade
 }
 
 #[cfg(test)]
@@ -327,7 +373,7 @@ mod tests {
         let scale = resolved(&axis, &[1e-20, 9e-20]);
         let middle = scale.pixel(5e-20).expect("finite");
         assert!((middle - 50.0).abs() < 1e-6, "{middle}");
-        assert_eq!(scale.label(&axis), "w (10⁻²¹ m)");
+        assert_eq!(scale.label(&axis), "w ($10^{\u{2212}21}$ m)");
     }
 
     #[test]
@@ -344,6 +390,7 @@ mod tests {
         assert_eq!(decimals(0.25), 2);
         assert_eq!(decimals(5.0), 0);
         assert_eq!(decimals(0.001), 3);
-        assert_eq!(superscript(-12), "⁻¹²");
+        assert_eq!(power(-12), "$10^{\u{2212}12}$");
+        assert_eq!([0.11, 0.24, 0.4, 8.0].map(tick_step), [0.1, 0.2, 0.5, 10.0]);
     }
 }

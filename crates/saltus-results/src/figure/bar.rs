@@ -1,13 +1,13 @@
 //! The colour bar at the right of a map: the values that its colours stand for.
 
+use super::axes::turned;
 use super::axis::Scale;
 use super::colour::Colour;
 use super::frame::Frame;
-use super::ink::{Ink, Step, outline};
+use super::ink::{Anchor, Ink, Step, Type, outline};
+use super::lettering::{width, wrap};
 use super::mosaic::{Cells, Mixing};
 use super::style::{EDGE, LABEL, TICK};
-use super::text;
-use kuva::render::render::{Primitive, TextAnchor};
 
 /// Distance from the frame, width of the bar, length of ticks, distance of texts (px).
 const GAP: f64 = 16.0;
@@ -33,7 +33,7 @@ pub(crate) struct Bar {
 impl Bar {
     /// Room at the right of a frame of the given height (px).
     pub(crate) fn width(&self, height: f64) -> f64 {
-        let lines = text::wrap(&self.label, LABEL, height).len() as f64;
+        let lines = wrap(&self.label, LABEL, height).len() as f64;
         self.label_start() + lines * LINE + EDGE
     }
 
@@ -42,13 +42,13 @@ impl Bar {
         let ticks = self.scale.ticks();
         let widest = ticks
             .iter()
-            .map(|tick| text::width(&tick.1, TICK))
+            .map(|tick| width(&tick.text, TICK))
             .fold(0.0, f64::max);
         GAP + WIDTH + TICKS + SPACE + widest + 2.0 * SPACE
     }
 
     /// Draws the bar beside `frame`, as high as that.
-    pub(crate) fn draw(&self, frame: &Frame, words: &mut Vec<Primitive>, ink: &mut Vec<Ink>) {
+    pub(crate) fn draw(&self, frame: &Frame, ink: &mut Vec<Ink>) {
         let left = frame.right + GAP;
         let room = |arrow: bool| if arrow { ARROW } else { 0.0 };
         let (top, bottom) = (
@@ -59,35 +59,17 @@ impl Bar {
         ink.extend(self.gradient(left, (top, bottom)));
         ink.push(outline((left, top), (WIDTH, bottom - top), 1.0));
         let scale = self.scale.clone().between(bottom, top);
-        for (y, label) in scale.ticks() {
-            let from = left + WIDTH;
+        for tick in scale.ticks() {
+            let (from, y) = (left + WIDTH, tick.pixel);
             let steps = vec![Step::Move(from, y), Step::Line(from + TICKS, y)];
             ink.push(Ink::trail(steps, 1.0, Colour::BLACK));
-            words.push(Primitive::Text {
-                x: from + TICKS + SPACE,
-                y: y + 0.36 * f64::from(TICK),
-                content: label,
-                size: TICK,
-                anchor: TextAnchor::Start,
-                rotate: None,
-                bold: false,
-                color: Some(Colour::BLACK.into()),
-            });
+            let at = (from + TICKS + SPACE, y);
+            ink.push(Ink::Type(
+                Type::new(&tick.text, TICK, at, Anchor::Start).centred(),
+            ));
         }
-        let middle = 0.5 * (frame.top + frame.bottom);
-        let lines = text::wrap(&self.label, LABEL, frame.bottom - frame.top);
-        for (number, line) in lines.into_iter().enumerate() {
-            words.push(Primitive::Text {
-                x: frame.right + self.label_start() + (number as f64 + 0.75) * LINE,
-                y: middle,
-                content: line,
-                size: LABEL,
-                anchor: TextAnchor::Middle,
-                rotate: Some(-90.0),
-                bold: false,
-                color: Some(Colour::BLACK.into()),
-            });
-        }
+        let lines = wrap(&self.label, LABEL, frame.bottom - frame.top);
+        ink.extend(turned(&lines, frame.right + self.label_start(), frame));
     }
 
     /// The colours as cells of a map one cell wide.

@@ -172,7 +172,14 @@ impl From<Branches> for Panel {
         let mut panel = Self::new(diagram.title, diagram.x, diagram.y, (0.012, 0.05));
         let (pen, colour) = BEHIND;
         let behind = diagram.cloud.map(|(label, x, y)| {
-            let dust = Layer::Dust { x, y, pen, colour };
+            let shaded = true;
+            let dust = Layer::Dust {
+                x,
+                y,
+                pen,
+                colour,
+                shaded,
+            };
             panel.layers.extend([dust, Layer::Frame]);
             label
         });

@@ -1,16 +1,17 @@
 //! Bifurcation diagrams: clouds of points, drawn so that none hides another.
 
-use super::axis::Axis;
+use super::axis::{Axis, Extent};
 use super::colour::Colour;
 use super::panel::{Layer, Panel, Swatch};
 use std::cmp::Reverse;
+use std::collections::BTreeMap;
 
 /// Several clouds of points over a common parameter.
 ///
-/// The first series is drawn at the bottom with the largest and lightest dots, each later one
-/// smaller and on top. Where two series coincide the later shows its dot with a rim of the earlier;
-/// where only one is present its bare dot shows. Nothing is transparent, so a colour means one thing.
-/// Series that cannot coincide, such as attractors, are better drawn [`apart`](Self::apart).
+/// The more points on a place, the darker it is. The first series is black. Of each later one only the values of the
+/// parameter are drawn at which its points differ from those of all series before: so two sweeps show where there is
+/// hysteresis, and one cloud elsewhere. Series that cannot coincide, such as attractors, are better drawn
+/// [`apart`](Self::apart).
 #[derive(Clone, Debug)]
 pub struct Cloud {
     title: String,
@@ -97,30 +98,86 @@ impl Cloud {
 /// Diameter (px) of dots that are apart and many.
 const FINE: f64 = 2.2;
 
-/// Diameter (px) of the dots of series `index` of `count`: from wide below to fine on top.
-fn pen(index: usize, count: usize) -> f64 {
-    const FINE: f64 = 1.4;
-    let wide = match count {
-        0 | 1 => return 1.7,
-        2 => 3.2,
-        _ => 4.0,
+/// Diameter (px) of a point of a cloud.
+const POINT: f64 = 1.7;
+
+/// Distance of points that look the same, as a share of the extent of all, and the share of the points of two clouds
+/// that have such a neighbour in the other if both are the same.
+const NEAR: f64 = 0.025;
+const MOST: f64 = 0.85;
+
+/// The points of `series` at values at which they differ from those of each series `before`; `extent` is that of all
+/// points in y.
+fn different(series: &Series, before: &[Rows], extent: f64) -> (Vec<f64>, Vec<f64>) {
+    let rows = rows(series);
+    let known = |value: &u64, points: &Vec<f64>| {
+        before.iter().any(|earlier| {
+            let there = earlier.get(value);
+            there.is_some_and(|there| alike(points, there, NEAR * extent))
+        })
     };
-    let depth = (count - 1 - index) as f64 / (count - 1) as f64;
-    FINE + (wide - FINE) * depth
+    let new = rows.iter().filter(|(value, points)| !known(value, points));
+    new.flat_map(|(&value, points)| points.iter().map(move |&y| (f64::from_bits(value), y)))
+        .unzip()
+}
+
+/// Points in ascending order by the bits of their parameter.
+type Rows = BTreeMap<u64, Vec<f64>>;
+
+fn rows(series: &Series) -> Rows {
+    let mut rows = Rows::new();
+    for (x, &y) in series
+        .x
+        .iter()
+        .zip(&series.y)
+        .filter(|(_, y)| y.is_finite())
+    {
+        rows.entry(x.to_bits()).or_default().push(y);
+    }
+    rows.values_mut()
+        .for_each(|row| row.sort_by(f64::total_cmp));
+    rows
+}
+
+/// Whether most points of each of two sorted rows have a neighbour in the other.
+fn alike(one: &[f64], two: &[f64], near: f64) -> bool {
+    let covered = |points: &[f64], by: &[f64]| {
+        let close = |y: &&f64| {
+            let next = by.partition_point(|other| *other < **y - near);
+            by.get(next).is_some_and(|other| *other <= **y + near)
+        };
+        points.iter().filter(close).count() as f64 >= MOST * points.len() as f64
+    };
+    covered(one, two) && covered(two, one)
 }
 
 impl From<Cloud> for Panel {
     fn from(cloud: Cloud) -> Self {
         let mut panel = Self::new(cloud.title, cloud.x, cloud.y, (0.012, 0.05));
         panel.flags = cloud.flags;
-        let count = cloud.series.len();
         let order: &[Colour] = match cloud.apart {
             Some(_) => &Colour::ATTRACTORS,
-            None => &Colour::NESTED,
+            None => &Colour::CLOUDS,
         };
+        let mut extent = Extent::EMPTY;
+        let heights = cloud.series.iter().flat_map(|series| &series.y);
+        heights.for_each(|&y| extent.include(&panel.y, y));
+        let extent = extent.limits().map_or(0.0, |(low, high)| high - low);
+        let mut before: Vec<Rows> = Vec::new();
         for (index, series) in cloud.series.into_iter().enumerate() {
             let colour = series.colour.unwrap_or(Colour::of(order, index));
-            let pen = cloud.apart.unwrap_or(pen(index, count));
+            let pen = cloud.apart.unwrap_or(POINT);
+            let (x, y) = match cloud.apart {
+                Some(_) => (series.x, series.y),
+                None => {
+                    let new = different(&series, &before, extent);
+                    before.push(rows(&series));
+                    new
+                }
+            };
+            if index > 0 && x.is_empty() {
+                continue;
+            }
             panel.key(
                 series.label,
                 Swatch::Dot {
@@ -129,10 +186,11 @@ impl From<Cloud> for Panel {
                 },
             );
             panel.layers.push(Layer::Dust {
-                x: series.x,
-                y: series.y,
+                x,
+                y,
                 pen,
                 colour,
+                shaded: cloud.apart.is_none(),
             });
         }
         if cloud.apart.is_some() {
@@ -142,5 +200,24 @@ impl From<Cloud> for Panel {
             });
         }
         panel
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_second_sweep_shows_where_it_differs() {
+        let series = |y: &[f64]| Series {
+            label: String::new(),
+            colour: None,
+            x: (0..y.len()).map(|i| (i / 2) as f64).collect(),
+            y: y.to_vec(),
+        };
+        let first = series(&[1.0, 2.0, 1.0, 2.0, 1.0, 1.0, f64::NAN, f64::NAN]);
+        let second = series(&[1.001, 2.0, 1.0, 1.0, 1.0, 1.0, 3.0, 3.0]);
+        let (x, y) = different(&second, &[rows(&first)], 2.0);
+        assert_eq!((x, y), (vec![1.0, 1.0, 3.0, 3.0], vec![1.0, 1.0, 3.0, 3.0]));
     }
 }

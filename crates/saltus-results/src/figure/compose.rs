@@ -1,48 +1,98 @@
-//! From a figure to one kuva scene: kuva draws axes, ticks and labels; panels are placed here, and the marks
-//! between the axes are ours.
+//! From a figure to one drawing: places panels on the sheet, with their axes, marks, titles and one legend.
 
-use super::axis::Scale;
+use super::Figure;
+use super::axes::{self, Side};
+use super::axis::{Extent, Scale};
 use super::colour::Colour;
 use super::frame::Frame;
-use super::ink::Drawing;
+use super::ink::{Anchor, Drawing, Ink, Type};
 use super::legend;
+use super::lettering::{Line, plain, printable, width, wrap};
 use super::marks;
 use super::panel::{Key, Panel};
 use super::style::{EDGE, LABEL, PANEL_TITLE, TICK, TITLE};
-use super::{Figure, text};
-use kuva::plot::LinePlot;
-use kuva::render::layout::{AxisLabelOverlap, ComputedLayout, Layout};
-use kuva::render::plots::Plot;
-use kuva::render::render::{Primitive, Scene, TextAnchor, TextSpan, render_multiple};
-use kuva::render::theme::Theme;
 
 /// Distances (px).
 const TITLE_LINE: f64 = 22.0;
 const PANEL_LINE: f64 = 19.0;
 const FLAG_LINE: f64 = 17.0;
-const RIGHT: f64 = 28.0;
+const RIGHT: f64 = 14.0;
+/// Least width of a plot beside others in a figure of given width (px).
+const LEAST: f64 = 150.0;
 /// Strokes of all clouds of a figure: about a megabyte of SVG.
 const STROKES: usize = 75_000;
 
 /// Lays out the whole figure.
 pub(crate) fn drawing(figure: &Figure) -> Drawing {
-    let drafts: Vec<Draft> = figure
-        .panels
-        .iter()
-        .enumerate()
-        .map(|(i, panel)| Draft::new(figure, i, panel))
-        .collect();
-    let sheet = Sheet::new(figure, &drafts);
+    let target = figure
+        .style
+        .width
+        .map(|width| width * LABEL / figure.style.font);
+    let (columns, plot) = match target {
+        Some(target) => fitted(figure, target),
+        None => (figure.columns, figure.plot),
+    };
+    let drafts = drafts(figure, columns, plot);
+    let sheet = Sheet::new(figure, columns, plot, &drafts);
     let mut drawing = sheet.blank(figure);
     for (index, draft) in drafts.iter().enumerate() {
-        draft.draw(
-            figure,
-            sheet.margins(index),
-            sheet.corner(index),
-            &mut drawing,
-        );
+        let (margins, corner) = (sheet.margins(index), sheet.corner(index));
+        let strokes = STROKES / drafts.len().max(1);
+        draft.draw(plot, margins, corner, strokes, &mut drawing.ink);
     }
+    // a legend that is wider than the sheet widens it: then all is smaller, and the width is still the one asked for
+    drawing.point = figure.style.width.map(|width| width / drawing.width);
     drawing
+}
+
+/// Columns and size of plots (px) with which the sheet is `target` wide (px).
+fn fitted(figure: &Figure, target: f64) -> (usize, (f64, f64)) {
+    let aspect = (figure.plot.1 / figure.plot.0).max(0.6);
+    let most = figure.columns.min(figure.panels.len().max(1));
+    for columns in (1..=most).rev() {
+        let mut plot = figure.plot;
+        // Margins depend on the numbers at ticks, and these on the size: a few rounds settle it.
+        for _ in 0..4 {
+            let sheet = Sheet::new(figure, columns, plot, &drafts(figure, columns, plot));
+            let wide = (plot.0 + (target - sheet.panels) / columns as f64).max(80.0);
+            plot = (wide, wide * aspect);
+        }
+        if plot.0 >= LEAST || columns == 1 {
+            return (columns, plot);
+        }
+    }
+    (1, figure.plot)
+}
+
+fn drafts(figure: &Figure, columns: usize, plot: (f64, f64)) -> Vec<Draft<'_>> {
+    let mut extents: Vec<(Extent, Extent)> = figure.panels.iter().map(Panel::extents).collect();
+    if figure.shared {
+        let all = extents
+            .iter()
+            .fold((Extent::EMPTY, Extent::EMPTY), |all, one| {
+                (all.0.with(one.0), all.1.with(one.1))
+            });
+        extents.iter_mut().for_each(|extents| *extents = all);
+    }
+    let stack = columns == 1 && stacked(&figure.panels);
+    if stack {
+        let all = extents
+            .iter()
+            .fold(Extent::EMPTY, |all, one| all.with(one.0));
+        extents.iter_mut().for_each(|extents| extents.0 = all);
+    }
+    let panels = figure.panels.iter().zip(extents).enumerate();
+    panels
+        .map(|(index, (panel, extents))| {
+            let bare = stack && index + 1 < figure.panels.len();
+            Draft::new(figure, (index, panel), extents, plot, bare)
+        })
+        .collect()
+}
+
+/// Whether panels below each other have the horizontal axis in common, so that the lowest alone needs its numbers.
+fn stacked(panels: &[Panel]) -> bool {
+    panels.len() > 1 && panels.iter().all(|panel| panel.x == panels[0].x)
 }
 
 /// Space around the plot area of a panel (px).
@@ -59,6 +109,8 @@ struct Draft<'a> {
     panel: &'a Panel,
     x: Scale,
     y: Scale,
+    below: Side,
+    left: Side,
     tag: String,
     title: Vec<String>,
     flags: Vec<Flag>,
@@ -73,97 +125,66 @@ struct Flag {
 }
 
 impl<'a> Draft<'a> {
-    fn new(figure: &Figure, index: usize, panel: &'a Panel) -> Self {
-        let (width, height) = figure.plot;
-        let (across, up) = panel.extents();
+    fn new(
+        figure: &Figure,
+        (index, panel): (usize, &'a Panel),
+        (across, up): (Extent, Extent),
+        (width, height): (f64, f64),
+        bare: bool,
+    ) -> Self {
         let ticks = |length: f64, room: f64| (length / room).round().clamp(3.0, 8.0) as usize;
         let x =
             Scale::resolve(&panel.x, across, panel.pad.0, ticks(width, 95.0)).between(0.0, width);
         let y = Scale::resolve(&panel.y, up, panel.pad.1, ticks(height, 60.0)).between(height, 0.0);
+        let mut below = Side::horizontal(&x, &x.label(&panel.x), width);
+        if bare {
+            below.strip();
+        }
+        let left = Side::vertical(&y, &y.label(&panel.y), height);
         let tag = if figure.tagged {
             tag(index)
         } else {
             String::new()
         };
-        let title = text::wrap(&format!("{tag} {}", panel.title), PANEL_TITLE, width);
+        let words = if figure.style.titles {
+            panel.title.as_str()
+        } else {
+            ""
+        };
+        let title = wrap(&format!("{tag} {words}"), PANEL_TITLE, width);
         let flags = flags(panel, &x, width);
-        let mut draft = Self {
+        let rows = rows(&flags);
+        let wish = Margins {
+            left: left.left_room(),
+            right: match &panel.bar {
+                Some(bar) => bar.width(height),
+                None => RIGHT.max(below.right_room(width) + EDGE),
+            },
+            top: title.len() as f64 * PANEL_LINE + rows * FLAG_LINE + 7.0,
+            bottom: below.bottom_room(),
+        };
+        Self {
             panel,
             x,
             y,
+            below,
+            left,
             tag,
             title,
             flags,
-            wish: Margins::default(),
-        };
-        let auto = ComputedLayout::from_layout(&draft.layout(figure.plot));
-        let rows = draft
-            .flags
-            .iter()
-            .map(|flag| flag.row + 1)
-            .max()
-            .unwrap_or(0);
-        let top = draft.title.len() as f64 * PANEL_LINE + rows as f64 * FLAG_LINE + 7.0;
-        draft.wish = Margins {
-            left: auto.margin_left.ceil(),
-            right: panel.bar.as_ref().map_or(RIGHT, |bar| bar.width(height)),
-            top,
-            bottom: auto.margin_bottom.ceil(),
-        };
-        draft
+            wish,
+        }
     }
 
-    /// Limits, ticks and labels as kuva takes them.
-    fn layout(&self, (width, height): (f64, f64)) -> Layout {
-        let (x_label, y_label) = (self.x.label(&self.panel.x), self.y.label(&self.panel.y));
-        let x_wrap = letters(&x_label, width);
-        let y_wrap = letters(&y_label, height);
-        Layout::new((self.x.low, self.x.high), (self.y.low, self.y.high))
-            .with_x_axis_min(self.x.low)
-            .with_x_axis_max(self.x.high)
-            .with_y_axis_min(self.y.low)
-            .with_y_axis_max(self.y.high)
-            .with_x_tick_step(self.x.step)
-            .with_y_tick_step(self.y.step)
-            .with_x_tick_format(self.x.tick_format())
-            .with_y_tick_format(self.y.tick_format())
-            .with_x_label_overlap(AxisLabelOverlap::Thin)
-            .with_x_label(x_label)
-            .with_y_label(y_label)
-            .with_x_label_wrap(x_wrap)
-            .with_y_label_wrap(y_wrap)
-            .with_label_size(LABEL)
-            .with_tick_size(TICK)
-            .with_box_axes()
-            .with_theme(theme())
-    }
-
-    /// Draws the panel with its upper left corner at `corner`.
-    fn draw(&self, figure: &Figure, margins: Margins, corner: (f64, f64), drawing: &mut Drawing) {
-        let (width, height) = figure.plot;
-        let layout = self
-            .layout(figure.plot)
-            .with_width(margins.left + width + margins.right)
-            .with_height(margins.top + height + margins.bottom)
-            .with_force_margins(margins.left, margins.right)
-            // kuva ties the label to the ticks; in a column of panels the labels must stand in line.
-            .with_y_label_offset(self.wish.left - margins.left, 0.0)
-            .with_force_margins_y(margins.top, margins.bottom);
-        // Without any plot kuva draws no axes; an empty one is enough. Its clip path holds nothing.
-        let axes = render_multiple(vec![Plot::Line(LinePlot::new())], layout).elements;
-        let clip = |e: &Primitive| matches!(e, Primitive::ClipStart { .. } | Primitive::ClipEnd);
-        let transform = Some(format!("translate({},{})", corner.0, corner.1));
-        drawing.scene.add(Primitive::GroupStart {
-            transform,
-            title: None,
-            extra_attrs: None,
-        });
-        drawing
-            .scene
-            .elements
-            .extend(axes.into_iter().filter(|element| !clip(element)));
-        drawing.scene.add(Primitive::GroupEnd);
-
+    /// Draws the panel with its upper left corner at `corner`, with at most about so many strokes for its clouds.
+    fn draw(
+        &self,
+        (width, height): (f64, f64),
+        margins: Margins,
+        corner: (f64, f64),
+        strokes: usize,
+        ink: &mut Vec<Ink>,
+    ) {
         let (left, top) = (corner.0 + margins.left, corner.1 + margins.top);
         let frame = Frame {
             left,
@@ -173,42 +194,41 @@ impl<'a> Draft<'a> {
             x: self.x.clone().between(left, left + width),
             y: self.y.clone().between(top + height, top),
         };
-        marks::draw(
-            self.panel,
-            &frame,
-            STROKES / figure.panels.len().max(1),
-            &mut drawing.ink,
-        );
+        // In a column of panels the labels stand in line.
+        axes::draw(&frame, (&self.below, &self.left), margins.left, ink);
+        marks::draw(self.panel, &frame, strokes, ink);
         if let Some(bar) = &self.panel.bar {
-            bar.draw(&frame, &mut drawing.scene.elements, &mut drawing.ink);
+            bar.draw(&frame, ink);
         }
-        self.heading(&frame, &mut drawing.scene.elements);
+        self.heading(&frame, ink);
     }
 
     /// Title lines and flag labels above the frame.
-    fn heading(&self, frame: &Frame, words: &mut Vec<Primitive>) {
+    fn heading(&self, frame: &Frame, ink: &mut Vec<Ink>) {
         for flag in &self.flags {
             let y = frame.top - 5.0 - flag.row as f64 * FLAG_LINE;
-            words.push(small_text(frame.left + flag.x, y, &flag.label));
+            ink.push(Ink::Type(Type {
+                colour: Colour::DARK,
+                ..Type::new(&flag.label, TICK, (frame.left + flag.x, y), Anchor::Middle)
+            }));
         }
-        let rows = self
-            .flags
-            .iter()
-            .map(|flag| flag.row + 1)
-            .max()
-            .unwrap_or(0) as f64;
-        let last = frame.top - rows * FLAG_LINE - 9.0;
+        let last = frame.top - rows(&self.flags) * FLAG_LINE - 9.0;
         for (above, line) in self.title.iter().rev().enumerate() {
             let y = last - above as f64 * PANEL_LINE;
             let first = above + 1 == self.title.len();
-            let (bold, plain) = if first {
-                line.split_at(self.tag.len())
-            } else {
-                ("", line.as_str())
-            };
-            words.push(heading(frame.left, y, PANEL_TITLE, bold, plain));
+            let bold = if first { self.tag.len() } else { 0 };
+            let (bold, rest) = line.split_at(bold);
+            let bold = heading(frame.left, y, PANEL_TITLE, bold, true);
+            let start = frame.left + bold.line.width * PANEL_TITLE;
+            ink.push(Ink::Type(bold));
+            ink.push(Ink::Type(heading(start, y, PANEL_TITLE, rest, false)));
         }
     }
+}
+
+/// Rows of labels above a frame.
+fn rows(flags: &[Flag]) -> f64 {
+    flags.iter().map(|flag| flag.row + 1).max().unwrap_or(0) as f64
 }
 
 /// Places on the sheet (px): margins, titles, legend.
@@ -218,20 +238,23 @@ struct Sheet {
     plot: (f64, f64),
     title: Vec<String>,
     legend: Vec<Vec<Key>>,
+    /// Width of the panels with their margins, and of the sheet.
+    panels: f64,
     width: f64,
 }
 
 impl Sheet {
     /// Panels of one column share their left margin, panels of one row the others: frames align.
-    fn new(figure: &Figure, drafts: &[Draft]) -> Self {
+    fn new(figure: &Figure, columns: usize, plot: (f64, f64), drafts: &[Draft]) -> Self {
         let count = drafts.len().max(1);
-        let columns = figure.columns.min(count);
+        let columns = columns.min(count);
         let mut sheet = Self {
             columns: vec![Margins::default(); columns],
             rows: vec![Margins::default(); count.div_ceil(columns)],
-            plot: figure.plot,
+            plot,
             title: Vec::new(),
             legend: Vec::new(),
+            panels: 0.0,
             width: 0.0,
         };
         for (index, draft) in drafts.iter().enumerate() {
@@ -245,14 +268,13 @@ impl Sheet {
         let keys = legend::keys(&figure.panels);
         let left = sheet.columns[0].left;
         let right = sheet.columns[columns - 1].right;
-        let panels: f64 = sheet
-            .columns
-            .iter()
-            .map(|c| c.left + figure.plot.0 + c.right)
-            .sum();
-        sheet.width = panels.max(left + legend::widest(&keys)) + 2.0 * EDGE;
-        let room = sheet.width - left - right.min(RIGHT);
-        sheet.title = text::wrap(&figure.title, TITLE, room / BOLDER);
+        let panels = sheet.columns.iter().map(|c| c.left + plot.0 + c.right);
+        sheet.panels = panels.sum::<f64>() + 2.0 * EDGE;
+        sheet.width = sheet.panels.max(left + legend::widest(&keys) + 2.0 * EDGE);
+        let room = sheet.width - 2.0 * EDGE - left - right.min(RIGHT);
+        if figure.style.titles {
+            sheet.title = wrap(&figure.title, TITLE, room / BOLDER);
+        }
         sheet.legend = legend::rows(&keys, room);
         sheet
     }
@@ -285,7 +307,7 @@ impl Sheet {
         (EDGE + x, self.header() + y)
     }
 
-    /// A white sheet with the title and the legend.
+    /// A sheet with the title and the legend.
     fn blank(&self, figure: &Figure) -> Drawing {
         let panels: f64 = self
             .rows
@@ -297,23 +319,47 @@ impl Sheet {
         } else {
             panels
         };
-        let mut scene = Scene::new(self.width.ceil(), (self.header() + rows + EDGE).ceil());
-        scene.font_family =
-            ComputedLayout::from_layout(&Layout::new((0.0, 1.0), (0.0, 1.0))).font_family;
         let left = EDGE + self.columns[0].left;
+        let mut ink = Vec::new();
         for (number, line) in self.title.iter().enumerate() {
             let y = EDGE + (number as f64 + 0.75) * TITLE_LINE;
-            scene.add(heading(left, y, TITLE, line, ""));
+            ink.push(Ink::Type(heading(left, y, TITLE, line, true)));
         }
         let top = EDGE + self.title.len() as f64 * TITLE_LINE;
-        let mut ink = Vec::new();
-        legend::draw(&self.legend, left, top, &mut scene.elements, &mut ink);
-        Drawing { scene, ink }
+        legend::draw(&self.legend, left, top, &mut ink);
+        Drawing {
+            width: self.width.ceil(),
+            height: (self.header() + rows + EDGE).ceil(),
+            point: None,
+            title: plain(&printable(&figure.title)),
+            description: description(figure),
+            ink,
+        }
     }
 }
 
-/// Bold type is wider than the regular type that `text::width` measures.
+/// Bold type is wider than the regular type that lines are broken by.
 const BOLDER: f64 = 1.14;
+
+/// What each panel shows over what, for those who do not see it.
+fn description(figure: &Figure) -> String {
+    let axes = |panel: &Panel| {
+        let title = if panel.title.is_empty() {
+            String::new()
+        } else {
+            format!("{}: ", panel.title)
+        };
+        format!("{title}{} over {}.", panel.y.label, panel.x.label)
+    };
+    let mut sentences: Vec<String> = figure.panels.iter().map(axes).collect();
+    sentences.dedup();
+    let keys = legend::keys(&figure.panels);
+    if !keys.is_empty() {
+        let labels: Vec<String> = keys.into_iter().map(|key| key.label).collect();
+        sentences.push(format!("Legend: {}.", labels.join("; ")));
+    }
+    plain(&printable(&sentences.join(" ")))
+}
 
 /// (a) to (z), then (27) and so on.
 fn tag(index: usize) -> String {
@@ -323,32 +369,21 @@ fn tag(index: usize) -> String {
     }
 }
 
-/// Letters per line at which kuva must break `label` so that it fits `room` (px).
-fn letters(label: &str, room: f64) -> usize {
-    let count = label.chars().count().max(1);
-    let share = room / text::width(label, LABEL).max(1.0);
-    if share >= 1.0 {
-        count
-    } else {
-        ((count as f64 * share * 0.92) as usize).max(8)
-    }
-}
-
 /// Labels of vertical lines, each in the lowest row where it touches no other.
-fn flags(panel: &Panel, x: &Scale, width: f64) -> Vec<Flag> {
+fn flags(panel: &Panel, x: &Scale, plot: f64) -> Vec<Flag> {
     let mut shown: Vec<(f64, &String)> = panel
         .flags
         .iter()
         .filter_map(|(value, label)| Some((x.pixel(*value)?, label)))
-        .filter(|(px, label)| (0.0..=width).contains(px) && !label.is_empty())
+        .filter(|(px, label)| (0.0..=plot).contains(px) && !label.is_empty())
         .collect();
     shown.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut ends: Vec<f64> = Vec::new();
     let mut flags = Vec::new();
     for (px, label) in shown {
-        let half = text::width(label, TICK) / 2.0;
+        let half = width(label, TICK) / 2.0;
         // A label near the edge moves inwards rather than over it.
-        let centre = px.min(width + RIGHT - half).max(half);
+        let centre = px.min(plot + RIGHT - half).max(half);
         let row = ends
             .iter()
             .position(|&end| end + 8.0 <= centre - half)
@@ -366,43 +401,10 @@ fn flags(panel: &Panel, x: &Scale, width: f64) -> Vec<Flag> {
     flags
 }
 
-fn theme() -> Theme {
-    Theme {
-        grid_color: "#e4e4e4".to_owned(),
-        ..Theme::light()
-    }
-}
-
-/// A line of type from `x` to the right, beginning in bold.
-fn heading(x: f64, y: f64, size: u32, bold: &str, plain: &str) -> Primitive {
-    let mut spans = Vec::new();
-    for (words, bold) in [(bold, true), (plain, false)] {
-        if !words.is_empty() {
-            spans.push(TextSpan {
-                bold,
-                ..TextSpan::plain(text::printable(words))
-            });
-        }
-    }
-    Primitive::RichText {
-        x,
-        y,
-        spans,
-        size,
-        anchor: TextAnchor::Start,
-        color: Some(Colour::BLACK.into()),
-    }
-}
-
-fn small_text(x: f64, y: f64, content: &str) -> Primitive {
-    Primitive::Text {
-        x,
-        y,
-        content: text::printable(content),
-        size: TICK,
-        anchor: TextAnchor::Middle,
-        rotate: None,
-        bold: false,
-        color: Some(Colour::DARK.into()),
+/// A line of type from `x` to the right.
+fn heading(x: f64, y: f64, size: f64, words: &str, bold: bool) -> Type {
+    Type {
+        line: Line::set(&printable(words), bold),
+        ..Type::new("", size, (x, y), Anchor::Start)
     }
 }

@@ -1,16 +1,24 @@
-//! Marks in pixels, as both backends draw them, and makers of the simplest ones.
+//! Marks and type in pixels, as all backends draw them, and makers of the simplest ones.
 
 use super::colour::Colour;
+use super::lettering::{Line, printable};
 use super::mosaic::Mosaic;
-use kuva::render::render::Scene;
+use super::typeface::Curve;
 
-/// A figure in pixels of the SVG: axes and type as kuva draws them, and the marks above both.
+/// A figure in pixels of the SVG.
 pub(crate) struct Drawing {
-    pub(crate) scene: Scene,
+    pub(crate) width: f64,
+    pub(crate) height: f64,
+    /// Points (1/72 inch) of a pixel, if the figure has a size in print.
+    pub(crate) point: Option<f64>,
+    pub(crate) title: String,
+    /// A sentence for those who do not see it.
+    pub(crate) description: String,
+    /// From back to front.
     pub(crate) ink: Vec<Ink>,
 }
 
-/// A mark in pixels of the SVG, ready for either backend.
+/// A mark in pixels of the SVG, ready for any backend.
 #[derive(Clone, Debug)]
 pub(crate) enum Ink {
     /// Lines drawn with a round pen.
@@ -31,14 +39,87 @@ pub(crate) enum Ink {
         colour: Colour,
         opacity: f64,
     },
-    /// Type of the size of ticks with a white rim.
-    Word {
-        left: f64,
-        baseline: f64,
-        content: String,
-    },
+    /// Type.
+    Type(Type),
     /// The cells of a map.
     Mosaic(Mosaic),
+    /// A cloud of points as shades of one colour.
+    Density(Density),
+}
+
+/// One line of type.
+#[derive(Clone, Debug)]
+pub(crate) struct Type {
+    pub(crate) line: Line,
+    /// The anchor on the baseline.
+    pub(crate) at: (f64, f64),
+    pub(crate) anchor: Anchor,
+    /// Whether it is read from below to above.
+    pub(crate) turned: bool,
+    pub(crate) size: f64,
+    pub(crate) colour: Colour,
+    /// Whether a white rim parts it from what lies below.
+    pub(crate) rim: bool,
+}
+
+/// Part of a line of type that stands at its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+impl Type {
+    /// Black type of `size` at `at`.
+    pub(crate) fn new(content: &str, size: f64, at: (f64, f64), anchor: Anchor) -> Self {
+        Self {
+            line: Line::set(&printable(content), false),
+            at,
+            anchor,
+            turned: false,
+            size,
+            colour: Colour::BLACK,
+            rim: false,
+        }
+    }
+
+    /// The same type with its middle at the height of `at`.
+    pub(crate) fn centred(mut self) -> Self {
+        self.at.1 += 0.36 * self.size;
+        self
+    }
+
+    /// Outlines of the letters on the sheet (px).
+    pub(crate) fn outlines(&self) -> impl Iterator<Item = Curve> {
+        let (size, turned, (x, y)) = (self.size, self.turned, self.at);
+        let start = match self.anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => -0.5 * self.line.width,
+            Anchor::End => -self.line.width,
+        };
+        self.line.outlines().map(move |curve| {
+            curve.map(|(right, up)| {
+                let (right, up) = ((start + right) * size, up * size);
+                if turned {
+                    (x - up, y - right)
+                } else {
+                    (x + right, y - up)
+                }
+            })
+        })
+    }
+}
+
+/// Shades on a raster of equal cells, rows from above.
+#[derive(Clone, Debug)]
+pub(crate) struct Density {
+    /// Left, top, right and bottom (px).
+    pub(crate) sides: [f64; 4],
+    pub(crate) size: (usize, usize),
+    /// Opacity of each cell.
+    pub(crate) shades: Vec<u8>,
+    pub(crate) colour: Colour,
 }
 
 /// One move of a pen (px).

@@ -3,14 +3,11 @@
 
 use super::colour::Colour;
 use super::dash::dashed;
-use super::ink::{Ink, Step, outline, rectangle};
+use super::ink::{Anchor, Ink, Step, Type, outline, rectangle};
+use super::lettering::width as width_of;
 use super::panel::{Key, Panel, Swatch, Tally};
-use super::style::{BAND, SHADE};
-use super::text;
-use kuva::render::render::{Primitive, TextAnchor};
+use super::style::{BAND, SHADE, TICK};
 
-/// Size of legend text (px).
-const SIZE: u32 = 13;
 /// Height of a row (px).
 const ROW: f64 = 21.0;
 /// Space between entries (px).
@@ -59,7 +56,7 @@ pub(crate) fn widest(keys: &[Key]) -> f64 {
 }
 
 fn extent(key: &Key) -> f64 {
-    swatch_width(key) + 7.0 + text::width(&key.label, SIZE) + SPACE
+    swatch_width(key) + 7.0 + width_of(&key.label, TICK) + SPACE
 }
 
 /// Entries in rows no wider than `width` (px).
@@ -90,19 +87,16 @@ pub(crate) fn height(rows: &[Vec<Key>]) -> f64 {
 }
 
 /// Draws `rows` from the corner at `left`, `top`.
-pub(crate) fn draw(
-    rows: &[Vec<Key>],
-    left: f64,
-    top: f64,
-    words: &mut Vec<Primitive>,
-    ink: &mut Vec<Ink>,
-) {
+pub(crate) fn draw(rows: &[Vec<Key>], left: f64, top: f64, ink: &mut Vec<Ink>) {
     for (number, row) in rows.iter().enumerate() {
         let middle = top + (number as f64 + 0.5) * ROW;
         let mut x = left;
         for key in row {
             swatch(key.swatch, x, middle, swatch_width(key), ink);
-            words.push(label(&key.label, x + swatch_width(key) + 7.0, middle));
+            let at = (x + swatch_width(key) + 7.0, middle);
+            ink.push(Ink::Type(
+                Type::new(&key.label, TICK, at, Anchor::Start).centred(),
+            ));
             x += extent(key);
         }
     }
@@ -159,18 +153,5 @@ fn swatch(swatch: Swatch, x: f64, y: f64, width: f64, ink: &mut Vec<Ink>) {
                 ink.push(Ink::dot(centre, 3.6, colour));
             }
         }
-    }
-}
-
-fn label(content: &str, x: f64, middle: f64) -> Primitive {
-    Primitive::Text {
-        x,
-        y: middle + 0.36 * f64::from(SIZE),
-        content: text::printable(content),
-        size: SIZE,
-        anchor: TextAnchor::Start,
-        rotate: None,
-        bold: false,
-        color: Some(Colour::BLACK.into()),
     }
 }

@@ -42,7 +42,7 @@ impl Grid {
 pub struct Class {
     /// Name of the class in the legend.
     pub label: String,
-    /// Its colour: one of [`Colour::SERIES`], [`Colour::OTHER`], [`Colour::IRREGULAR`],
+    /// Its colour: one of [`Colour::of_period`], [`Colour::OTHER`], [`Colour::IRREGULAR`],
     /// [`Colour::UNDECIDED`] and [`Colour::FAILED`], any two of which are easy to distinguish.
     pub colour: Colour,
 }
@@ -187,7 +187,7 @@ impl From<ValueMap> for Panel {
         map.values
             .iter()
             .for_each(|&value| extent.include(&map.bar, value));
-        let scale = Scale::resolve(&map.bar, extent, 0.0, 6);
+        let scale = Scale::resolve(&map.bar, extent.unless_noise(), 0.0, 6);
         let share = |value: f64| scale.share(value).filter(|_| map.bar.admits(value));
         let code = |value: f64| match share(value) {
             Some(share) => (share.clamp(0.0, 1.0) * f64::from(STEPS - 1)).round() as u8,

@@ -4,6 +4,7 @@
 use super::area;
 use super::colour::Colour;
 use super::dash::dashed;
+use super::density::density;
 use super::frame::{Frame, clip, line};
 use super::ink::{Ink, Step, outline, rectangle};
 use super::notes;
@@ -20,6 +21,16 @@ pub(crate) fn draw(panel: &Panel, frame: &Frame, budget: usize, ink: &mut Vec<In
     for layer in &panel.layers {
         match layer {
             Layer::Notes(notes) => ink.extend(notes::place(notes, panel, frame)),
+            Layer::Dust {
+                x,
+                y,
+                pen,
+                colour,
+                shaded: true,
+            } => {
+                let shades = density(&frame.visible(x, y), *pen, *colour, frame.sides());
+                ink.extend(shades.map(Ink::Density));
+            }
             Layer::Dust { pen, colour, .. } => {
                 let strokes = dust.next().unwrap_or_default();
                 let steps = strokes.iter().flat_map(stroke).collect();
@@ -93,7 +104,13 @@ fn dust(panel: &Panel, frame: &Frame, budget: usize) -> Vec<Vec<Stroke>> {
         .layers
         .iter()
         .filter_map(|layer| match layer {
-            Layer::Dust { x, y, pen, .. } => Some((frame.visible(x, y), *pen)),
+            Layer::Dust {
+                x,
+                y,
+                pen,
+                shaded: false,
+                ..
+            } => Some((frame.visible(x, y), *pen)),
             _ => None,
         })
         .collect();

@@ -1,7 +1,8 @@
-//! Figures: declared as data, rendered to SVG text and PNG bytes from one drawing.
+//! Figures: declared as data, rendered to SVG, PNG and PDF from one drawing.
 //!
-//! kuva draws the axes, ticks and all type; the marks between the axes are ours, because a cloud of
-//! 200 000 points needs thinning and one path instead of one element per point.
+//! A figure is laid out once (`compose.rs`) as marks and type in pixels (`ink.rs`), which three backends draw: SVG, PNG
+//! and PDF. No plot library is below: those that were tried had no images, no halves of a pixel, no size in millimetres
+//! or no indices, and a cloud of 10⁶ points needs shades by number and not one element per point.
 //!
 //! Build one of [`Cloud`], [`Branches`], [`BifurcationSet`], [`Shares`], [`Portrait`], [`History`], [`Curves`],
 //! [`ClassMap`] or [`ValueMap`] and hand it to [`Figure::new`], or several as panels to [`Figure::grid`]. Points
@@ -11,13 +12,14 @@
 //! ```
 //! use saltus_results::{Axis, Cloud, Figure};
 //! let (x, y) = (vec![0.01, 0.02, 0.03], vec![1.0, f64::NAN, 1.2]);
-//! let cloud = Cloud::new("Jump height", Axis::new("Damping ratio (-)"), Axis::new("Height (m)"))
+//! let cloud = Cloud::new("Jump height", Axis::new("Damping ratio $ζ_h$"), Axis::new("Height (m)"))
 //!     .series("Up-sweep", x, y);
 //! let figure = Figure::new(cloud);
 //! assert!(figure.svg().starts_with("<svg"));
 //! ```
 
 mod area;
+mod axes;
 mod axis;
 mod bar;
 mod bifurcation;
@@ -28,6 +30,7 @@ mod colour;
 mod compose;
 mod curves;
 mod dash;
+mod density;
 mod frame;
 mod history;
 mod ink;
@@ -39,13 +42,14 @@ mod mosaic;
 mod notes;
 mod panel;
 mod parts;
+mod pdf;
 mod portrait;
 mod raster;
 mod scale;
 mod shares;
 mod style;
-mod text;
 mod thin;
+mod typeface;
 mod vector;
 
 pub use axis::Axis;
@@ -61,6 +65,7 @@ pub use panel::Panel;
 pub use portrait::Portrait;
 pub use scale::ColourScale;
 pub use shares::Shares;
+pub use style::FigureStyle;
 
 use crate::ResultsError;
 
@@ -71,7 +76,9 @@ pub struct Figure {
     columns: usize,
     panels: Vec<Panel>,
     tagged: bool,
+    shared: bool,
     plot: (f64, f64),
+    style: FigureStyle,
 }
 
 impl Figure {
@@ -84,7 +91,9 @@ impl Figure {
             columns: 1,
             panels: vec![panel],
             tagged: false,
+            shared: false,
             plot: (760.0, 430.0),
+            style: FigureStyle::default(),
         }
     }
 
@@ -103,7 +112,9 @@ impl Figure {
             columns,
             panels,
             tagged: true,
+            shared: false,
             plot,
+            style: FigureStyle::default(),
         }
     }
 
@@ -128,17 +139,38 @@ impl Figure {
         self
     }
 
-    /// The figure as SVG text: white ground, scalable, vectors except for the cells of maps.
-    pub fn svg(&self) -> String {
-        vector::svg(compose::drawing(self))
+    /// One pair of scales for all panels, so that they can be compared.
+    #[must_use]
+    pub fn same_scales(mut self) -> Self {
+        self.shared = true;
+        self
     }
 
-    /// The figure as PNG bytes with `scale` pixels per unit of the SVG; 2 suits screens and print.
+    /// Another look, such as a width in print.
+    #[must_use]
+    pub fn style(mut self, style: FigureStyle) -> Self {
+        self.style = style;
+        self
+    }
+
+    /// The figure as SVG text: white ground, vectors except for the cells of maps and the shades of clouds.
+    pub fn svg(&self) -> String {
+        vector::svg(&compose::drawing(self))
+    }
+
+    /// The figure as PNG bytes with `scale` pixels per unit of the SVG; 2 suits screens. A figure with a
+    /// [width](FigureStyle::width) has 600 pixels to an inch, whatever the scale.
     ///
     /// # Errors
-    /// [`ResultsError::PngScale`] if the scale is not between 0.5 and 8 or the image would exceed
+    /// [`ResultsError::PngScale`] if the scale is not between 0.3 and 32 or the image would exceed
     /// 200 million pixels; [`ResultsError::Png`] if the rasteriser refuses.
     pub fn png(&self, scale: f32) -> Result<Vec<u8>, ResultsError> {
-        raster::png(compose::drawing(self), scale)
+        raster::png(&compose::drawing(self), scale)
+    }
+
+    /// The figure as the bytes of a PDF of one page, its type as outlines. Without a [width](FigureStyle::width) a unit of
+    /// the SVG is three quarters of a point.
+    pub fn pdf(&self) -> Vec<u8> {
+        pdf::pdf(&compose::drawing(self))
     }
 }

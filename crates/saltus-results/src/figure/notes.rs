@@ -1,10 +1,10 @@
 //! Placing of short labels beside points inside the frame: none overlaps another, and few hide a curve.
 
 use super::frame::{Frame, clip, line};
-use super::ink::{Ink, Step};
+use super::ink::{Anchor, Ink, Step, Type};
+use super::lettering::width;
 use super::panel::{Layer, Note, Panel, Place};
 use super::style::TICK;
-use super::text;
 
 /// Points of a cycle that are tried: each costs a look at all curves.
 const ENOUGH: usize = 16;
@@ -84,8 +84,7 @@ pub(crate) fn place(notes: &[Note], panel: &Panel, frame: &Frame) -> Vec<Ink> {
     let mut taken: Vec<Sides> = Vec::new();
     let mut ink = Vec::new();
     for note in notes {
-        let width = text::width(&note.text, TICK);
-        let best = candidates(note, width, frame)
+        let best = candidates(note, width(&note.text, TICK), frame)
             .filter(|sides| obstacles.admits(sides, frame))
             .filter(|sides| !taken.iter().any(|other| overlap(sides, other)))
             .enumerate()
@@ -94,18 +93,18 @@ pub(crate) fn place(notes: &[Note], panel: &Panel, frame: &Frame) -> Vec<Ink> {
             .min_by(|a, b| a.0.total_cmp(&b.0));
         if let Some((_, sides)) = best {
             taken.push(sides);
-            ink.push(Ink::Word {
-                left: sides[0],
-                baseline: sides[3] - 1.5,
-                content: text::printable(&note.text),
-            });
+            let at = (sides[0], sides[3] - 1.5);
+            ink.push(Ink::Type(Type {
+                rim: true,
+                ..Type::new(&note.text, TICK, at, Anchor::Start)
+            }));
         }
     }
     ink
 }
 
 fn candidates(note: &Note, width: f64, frame: &Frame) -> impl Iterator<Item = Sides> {
-    let half = (0.5 * width + 1.0, 0.5 * f64::from(TICK));
+    let half = (0.5 * width + 1.0, 0.5 * TICK);
     note.place.points(frame).into_iter().flat_map(move |point| {
         DISTANCES.into_iter().flat_map(move |distance| {
             DIRECTIONS.into_iter().map(move |(right, down)| {
@@ -206,7 +205,7 @@ mod tests {
 
     fn placed(ink: &[Ink]) -> Vec<(f64, f64)> {
         let word = |ink: &Ink| match ink {
-            Ink::Word { left, baseline, .. } => Some((*left, *baseline)),
+            Ink::Type(word) => Some(word.at),
             _ => None,
         };
         ink.iter().filter_map(word).collect()
@@ -219,10 +218,10 @@ mod tests {
             .collect();
         let words = placed(&place(&notes, &panel(), &frame()));
         assert!((2..40).contains(&words.len()), "{words:?}");
-        let width = text::width("PD1", TICK);
+        let wide = width("PD1", TICK);
         for (i, a) in words.iter().enumerate() {
             for b in &words[..i] {
-                let apart = (a.0 - b.0).abs() >= width || (a.1 - b.1).abs() >= f64::from(TICK);
+                let apart = (a.0 - b.0).abs() >= wide || (a.1 - b.1).abs() >= TICK;
                 assert!(apart, "{a:?} {b:?}");
             }
         }

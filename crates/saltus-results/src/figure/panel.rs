@@ -59,13 +59,14 @@ pub(crate) enum Layer {
         high: Vec<f64>,
         colour: Colour,
     },
-    /// Dots so small and many that they are thinned to the pixel grid. Neighbours in the list of
-    /// layers share one budget.
+    /// Dots so small and many that they are thinned to the pixel grid, or shown as shades by their number. Neighbours in
+    /// the list of layers share one budget.
     Dust {
         x: Vec<f64>,
         y: Vec<f64>,
         pen: f64,
         colour: Colour,
+        shaded: bool,
     },
     /// Dots to be counted, with a white rim.
     Dots {

@@ -70,6 +70,26 @@ impl Portrait {
         self
     }
 
+    /// Adds points of little weight, such as those of a transient, in light grey.
+    #[must_use]
+    pub fn faint(
+        mut self,
+        label: impl Into<String>,
+        x: impl Into<Vec<f64>>,
+        y: impl Into<Vec<f64>>,
+    ) -> Self {
+        let (radius, colour) = (2.0, Colour(176, 176, 176));
+        self.panel.key(label.into(), Swatch::Dot { radius, colour });
+        let (x, y) = (x.into(), y.into());
+        self.panel.layers.push(Layer::Dots {
+            x,
+            y,
+            radius,
+            colour,
+        });
+        self
+    }
+
     /// Adds stroboscopic points: large dots while they can be counted, fine ones for a chaotic set.
     #[must_use]
     pub fn points(
@@ -99,6 +119,7 @@ impl Portrait {
                 y,
                 pen: 2.0,
                 colour,
+                shaded: false,
             },
         };
         self.panel.key(

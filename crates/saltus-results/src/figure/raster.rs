@@ -1,42 +1,42 @@
-//! The PNG backend: kuva's rasteriser for axes and upright type, ours for the rest.
-//!
-//! kuva 0.6 frays slanted lines (no coverage in the vertical direction) and darkens rotated type (it
-//! blends onto a transparent ground as if it were opaque). So the marks are drawn by tiny-skia, and
-//! the labels of the vertical axes are drawn upright and turned by exact quarter turns (`lettering.rs`).
+//! The PNG backend.
 
 use super::colour::Colour;
-use super::ink::{Drawing, Ink, Step};
-use super::lettering::{self, take_turned};
+use super::ink::{Density, Drawing, Ink, Step, Type};
 use super::mosaic::{Mosaic, Raster};
-use super::style::{HALO, RIM, TICK};
+use super::style::{HALO, RIM};
+use super::typeface::Curve;
 use crate::ResultsError;
-use kuva::RasterBackend;
-use kuva::render::render::Scene;
 use tiny_skia::{
-    FillRule, IntSize, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, Transform,
+    FillRule, FilterQuality, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapPaint,
+    PremultipliedColorU8, Stroke, Transform,
 };
 
-/// The drawing as PNG bytes with `scale` pixels per unit.
-pub(crate) fn png(drawing: Drawing, scale: f32) -> Result<Vec<u8>, ResultsError> {
-    let Drawing { mut scene, ink } = drawing;
-    let (width, height) = (scene.width, scene.height);
+/// Pixels of a PNG per inch where the figure has a size in print.
+const INCH: f64 = 600.0;
+
+/// The drawing as PNG bytes with `scale` pixels per unit; a figure with a size in print has 600 to an inch instead.
+pub(crate) fn png(drawing: &Drawing, scale: f32) -> Result<Vec<u8>, ResultsError> {
+    let Drawing { width, height, .. } = *drawing;
+    let scale = match drawing.point {
+        Some(point) => (INCH / 72.0 * point) as f32,
+        None => scale,
+    };
     let pixels = width * height * f64::from(scale).powi(2);
-    if !(0.5..=8.0).contains(&scale) || pixels > 2e8 {
+    if !(0.3..=32.0).contains(&scale) || pixels > 2e8 {
         return Err(ResultsError::PngScale {
             width,
             height,
             scale,
         });
     }
-    let turned = take_turned(&mut scene);
-    let mut image = pixmap(&scene, scale)?;
-    for label in &turned {
-        label.blit(&mut image, scale)?;
+    let size = |length: f64| (length * f64::from(scale)).round() as u32;
+    let mut image =
+        Pixmap::new(size(width), size(height)).ok_or_else(|| refused(&"it is empty"))?;
+    image.fill(tiny_skia::Color::WHITE);
+    for mark in &drawing.ink {
+        draw(mark, &mut image, Transform::from_scale(scale, scale));
     }
-    for mark in &ink {
-        draw(mark, &mut image, Transform::from_scale(scale, scale))?;
-    }
-    encode(&image)
+    encode(&image, drawing.point.is_some())
 }
 
 fn refused(reason: &impl ToString) -> ResultsError {
@@ -45,29 +45,7 @@ fn refused(reason: &impl ToString) -> ResultsError {
     }
 }
 
-/// The scene as pixels, by kuva.
-pub(crate) fn pixmap(scene: &Scene, scale: f32) -> Result<Pixmap, ResultsError> {
-    let bytes = RasterBackend::new()
-        .with_scale(scale)
-        .render_scene(scene)
-        .map_err(|error| refused(&error))?;
-    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
-        .read_info()
-        .map_err(|error| refused(&error))?;
-    let size = reader
-        .output_buffer_size()
-        .ok_or_else(|| refused(&"the image is too large"))?;
-    let mut pixels = vec![0; size];
-    let info = reader
-        .next_frame(&mut pixels)
-        .map_err(|error| refused(&error))?;
-    let size =
-        IntSize::from_wh(info.width, info.height).ok_or_else(|| refused(&"the image is empty"))?;
-    // kuva writes four channels on an opaque ground, which is tiny-skia's own format.
-    Pixmap::from_vec(pixels, size).ok_or_else(|| refused(&"the image is not of four channels"))
-}
-
-fn draw(mark: &Ink, image: &mut Pixmap, transform: Transform) -> Result<(), ResultsError> {
+fn draw(mark: &Ink, image: &mut Pixmap, transform: Transform) {
     match mark {
         Ink::Trail {
             steps,
@@ -80,18 +58,67 @@ fn draw(mark: &Ink, image: &mut Pixmap, transform: Transform) -> Result<(), Resu
             colour,
         } => dot(*centre, *radius, *colour, image, transform),
         Ink::Mosaic(mosaic) => tile(mosaic, image, f64::from(transform.sx)),
+        Ink::Density(density) => shade(density, image, transform),
         Ink::Area {
             corners,
             colour,
             opacity,
         } => area(corners, &paint(*colour, *opacity), image, transform),
-        Ink::Word {
-            left,
-            baseline,
-            content,
-        } => lettering::word(content, TICK, (*left, *baseline), HALO, image, transform.sx)?,
+        Ink::Type(letters) => text(letters, image, transform),
     }
-    Ok(())
+}
+
+/// Type as the outlines of its letters, over a white rim if it has one.
+fn text(letters: &Type, image: &mut Pixmap, transform: Transform) {
+    let mut builder = PathBuilder::new();
+    let f = |v: f64| v as f32;
+    for curve in letters.outlines() {
+        match curve {
+            Curve::Move((x, y)) => builder.move_to(f(x), f(y)),
+            Curve::Line((x, y)) => builder.line_to(f(x), f(y)),
+            Curve::Cubic(a, b, c) => {
+                builder.cubic_to(f(a.0), f(a.1), f(b.0), f(b.1), f(c.0), f(c.1));
+            }
+            Curve::Close => builder.close(),
+        }
+    }
+    let Some(path) = builder.finish() else { return };
+    if letters.rim {
+        let white = paint(Colour(255, 255, 255), 1.0);
+        image.stroke_path(&path, &white, &pen(HALO), transform, None);
+    }
+    let ink = paint(letters.colour, 1.0);
+    image.fill_path(&path, &ink, FillRule::Winding, transform, None);
+}
+
+/// Shades over what is there.
+fn shade(density: &Density, image: &mut Pixmap, transform: Transform) {
+    let size = (density.size.0 as u32, density.size.1 as u32);
+    let Some(mut cells) = Pixmap::new(size.0, size.1) else {
+        return;
+    };
+    let Colour(red, green, blue) = density.colour;
+    let part = |channel: u8, shade: u8| (u16::from(channel) * u16::from(shade) / 255) as u8;
+    for (cell, &shade) in cells.pixels_mut().iter_mut().zip(&density.shades) {
+        let [r, g, b] = [red, green, blue].map(|channel| part(channel, shade));
+        // No channel exceeds the opacity, so there is such a colour.
+        if let Some(colour) = PremultipliedColorU8::from_rgba(r, g, b, shade) {
+            *cell = colour;
+        }
+    }
+    let [left, top, right, bottom] = density.sides.map(|side| side as f32);
+    let stretch = (
+        (right - left) / size.0 as f32,
+        (bottom - top) / size.1 as f32,
+    );
+    let place = transform
+        .pre_translate(left, top)
+        .pre_scale(stretch.0, stretch.1);
+    let smooth = PixmapPaint {
+        quality: FilterQuality::Bilinear,
+        ..PixmapPaint::default()
+    };
+    image.draw_pixmap(0, 0, cells.as_ref(), &smooth, place, None);
 }
 
 fn trail(steps: &[Step], width: f64, colour: Colour, image: &mut Pixmap, transform: Transform) {
@@ -191,7 +218,7 @@ fn paint(colour: Colour, opacity: f64) -> Paint<'static> {
 }
 
 /// Three channels suffice on a white ground.
-fn encode(image: &Pixmap) -> Result<Vec<u8>, ResultsError> {
+fn encode(image: &Pixmap, printed: bool) -> Result<Vec<u8>, ResultsError> {
     let rgb: Vec<u8> = image
         .data()
         .chunks_exact(4)
@@ -201,6 +228,14 @@ fn encode(image: &Pixmap) -> Result<Vec<u8>, ResultsError> {
     let mut encoder = png::Encoder::new(&mut bytes, image.width(), image.height());
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
+    if printed {
+        let metre = (INCH / 0.0254).round() as u32;
+        encoder.set_pixel_dims(Some(png::PixelDimensions {
+            xppu: metre,
+            yppu: metre,
+            unit: png::Unit::Meter,
+        }));
+    }
     let mut writer = encoder.write_header().map_err(|error| refused(&error))?;
     writer
         .write_image_data(&rgb)

@@ -1,130 +1,53 @@
-//! The SVG backend: kuva's for axes and type, with our marks as few and short paths.
+//! The SVG backend: type that stays type, marks as few and short paths, cells and shades as images.
 
 use super::colour::Colour;
-use super::ink::{Drawing, Ink, Step};
+use super::ink::{Anchor, Density, Drawing, Ink, Step, Type};
 use super::mosaic::Mosaic;
-use super::style::{HALO, RIM, TICK};
+use super::style::{HALO, RIM};
+use super::typeface::Style;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use kuva::backend::svg::SvgBackend;
-use kuva::render::color::Color;
-use kuva::render::render::{PathData, Primitive, TextAnchor};
 use std::fmt::Write;
 
 /// The drawing as SVG text.
-pub(crate) fn svg(drawing: Drawing) -> String {
-    let Drawing { mut scene, ink } = drawing;
-    let attributes = r#"fill="none" stroke-linecap="round" stroke-linejoin="round""#.to_owned();
-    scene.add(Primitive::GroupStart {
-        transform: None,
-        title: None,
-        extra_attrs: Some(attributes),
-    });
-    let mut images = Vec::new();
-    for mark in &ink {
-        match mark {
-            Ink::Mosaic(mosaic) => {
-                scene.elements.extend(place_of_image(images.len()));
-                images.push(image(mosaic));
-            }
-            Ink::Word {
-                left,
-                baseline,
-                content,
-            } => scene.elements.extend(word(*left, *baseline, content)),
-            _ => scene.elements.extend(primitive(mark)),
-        }
-    }
-    scene.add(Primitive::GroupEnd);
-    let view = format!(
-        "<svg viewBox=\"0 0 {} {}\" role=\"img\" ",
-        scene.width, scene.height
+pub(crate) fn svg(drawing: &Drawing) -> String {
+    let Drawing { width, height, .. } = drawing;
+    let size = |length: &f64| match drawing.point {
+        Some(point) => format!("{}mm", Short(length * point * 25.4 / 72.0)),
+        None => Short(*length).to_string(),
+    };
+    let mut svg = String::new();
+    // Writing to a string cannot fail.
+    let _ = write!(
+        svg,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{}\" height=\"{}\" \
+         role=\"img\" font-family=\"DejaVu Sans, Verdana, Geneva, sans-serif\">\n<title>{}</title>\n<desc>{}</desc>\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n\
+         <g stroke-linecap=\"round\" stroke-linejoin=\"round\">\n",
+        size(width),
+        size(height),
+        escaped(&drawing.title),
+        escaped(&drawing.description)
     );
-    // kuva writes a size but no view box, without which a viewer cuts instead of scaling.
-    let mut svg = SvgBackend::new()
-        .render_scene(&scene)
-        .replacen("<svg ", &view, 1);
-    for (number, image) in images.iter().enumerate() {
-        let place = format!("<g {}>", image_mark(number));
-        svg = svg.replacen(&place, &format!("<g>{image}"), 1);
-    }
+    drawing.ink.iter().for_each(|mark| draw(mark, &mut svg));
+    svg.push_str("</g>\n</svg>\n");
     svg
 }
 
-/// kuva knows no images: an empty group keeps the place of one.
-fn place_of_image(number: usize) -> [Primitive; 2] {
-    let start = Primitive::GroupStart {
-        transform: None,
-        title: None,
-        extra_attrs: Some(image_mark(number)),
-    };
-    [start, Primitive::GroupEnd]
-}
-
-fn image_mark(number: usize) -> String {
-    format!("data-cells=\"{number}\"")
-}
-
-/// The cells as an image that a viewer stretches without smoothing.
-fn image(mosaic: &Mosaic) -> String {
-    let raster = mosaic.blocks();
-    // Writing to memory does not fail; an image without content shows nothing.
-    let png = indexed(raster.size, &mosaic.colours, &mosaic.sample(raster)).unwrap_or_default();
-    let [left, top, right, bottom] = mosaic.shown;
-    format!(
-        "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" \
-         image-rendering=\"optimizeSpeed\" style=\"image-rendering:pixelated\" \
-         href=\"data:image/png;base64,{}\"/>",
-        Short(left),
-        Short(top),
-        Short(right - left),
-        Short(bottom - top),
-        STANDARD.encode(png)
-    )
-}
-
-/// Type with a white rim, which parts it from what lies below.
-fn word(x: f64, y: f64, content: &str) -> [Primitive; 3] {
-    let rim = format!("stroke=\"#ffffff\" stroke-width=\"{HALO}\" paint-order=\"stroke\"");
-    let start = Primitive::GroupStart {
-        transform: None,
-        title: None,
-        extra_attrs: Some(rim),
-    };
-    let text = Primitive::Text {
-        x,
-        y,
-        content: content.to_owned(),
-        size: TICK,
-        anchor: TextAnchor::Start,
-        rotate: None,
-        bold: false,
-        color: Some(Colour::BLACK.into()),
-    };
-    [start, text, Primitive::GroupEnd]
-}
-
-/// A PNG of one byte for each pixel, the index of its colour.
-fn indexed(
-    size: (usize, usize),
-    colours: &[Colour],
-    codes: &[u8],
-) -> Result<Vec<u8>, png::EncodingError> {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, size.0 as u32, size.1 as u32);
-    encoder.set_color(png::ColorType::Indexed);
-    encoder.set_depth(png::BitDepth::Eight);
-    let palette: Vec<u8> = colours.iter().flat_map(|c| [c.0, c.1, c.2]).collect();
-    encoder.set_palette(palette);
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(codes)?;
-    writer.finish()?;
-    Ok(bytes)
-}
-
-fn primitive(ink: &Ink) -> Option<Primitive> {
-    Some(match ink {
-        Ink::Mosaic(_) | Ink::Word { .. } => return None,
+fn draw(mark: &Ink, svg: &mut String) {
+    let _ = match mark {
+        Ink::Mosaic(mosaic) => {
+            svg.push_str(&cells(mosaic));
+            Ok(())
+        }
+        Ink::Density(density) => {
+            svg.push_str(&shades(density));
+            Ok(())
+        }
+        Ink::Type(letters) => {
+            svg.push_str(&text(letters));
+            Ok(())
+        }
         Ink::Area {
             corners,
             colour,
@@ -135,41 +58,158 @@ fn primitive(ink: &Ink) -> Option<Primitive> {
                 _ => Step::Line(x, y),
             };
             let steps: Vec<Step> = corners.iter().enumerate().map(step).collect();
-            Primitive::Path(Box::new(PathData {
-                d: path(&steps),
-                fill: Some((*colour).into()),
-                stroke: (*colour).into(),
-                stroke_width: 0.0,
-                opacity: (*opacity < 1.0).then_some(*opacity),
-                stroke_dasharray: None,
-            }))
+            let opacity = match *opacity {
+                opaque if opaque >= 1.0 => String::new(),
+                opacity => format!(" fill-opacity=\"{}\"", Short(opacity)),
+            };
+            writeln!(
+                svg,
+                "<path d=\"{}z\" fill=\"{}\"{opacity}/>",
+                path(&steps),
+                colour.hex()
+            )
         }
+        // An empty path would be an element for nothing.
+        Ink::Trail { steps, .. } if steps.is_empty() => Ok(()),
         Ink::Trail {
             steps,
             width,
             colour,
-        } => Primitive::Path(Box::new(PathData {
-            d: path(steps),
-            fill: None,
-            stroke: (*colour).into(),
-            stroke_width: *width,
-            opacity: None,
-            stroke_dasharray: None,
-        })),
+        } => writeln!(
+            svg,
+            "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"/>",
+            path(steps),
+            colour.hex(),
+            Short(*width)
+        ),
         Ink::Dot {
             centre,
             radius,
             colour,
-        } => Primitive::Circle {
-            cx: centre.0,
-            cy: centre.1,
-            r: *radius,
-            fill: (*colour).into(),
-            fill_opacity: None,
-            stroke: Some(Color::Rgb(255, 255, 255)),
-            stroke_width: Some(RIM),
-        },
-    })
+        } => writeln!(
+            svg,
+            "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\" stroke=\"#ffffff\" stroke-width=\"{RIM}\"/>",
+            Short(centre.0),
+            Short(centre.1),
+            Short(*radius),
+            colour.hex()
+        ),
+    };
+}
+
+/// Type, its indices as spans that are lowered and raised.
+fn text(letters: &Type) -> String {
+    let (x, y) = (Short(letters.at.0), Short(letters.at.1));
+    if letters.line.runs.is_empty() {
+        return String::new();
+    }
+    let anchor = match letters.anchor {
+        Anchor::Start => "",
+        Anchor::Middle => " text-anchor=\"middle\"",
+        Anchor::End => " text-anchor=\"end\"",
+    };
+    let turn = match letters.turned {
+        true => format!(" transform=\"rotate(-90 {x} {y})\""),
+        false => String::new(),
+    };
+    let rim = match letters.rim {
+        true => format!(" stroke=\"#ffffff\" stroke-width=\"{HALO}\" paint-order=\"stroke\""),
+        false => String::new(),
+    };
+    let mut spans = String::new();
+    let mut height = 0.0;
+    for run in &letters.line.runs {
+        let mut attributes = String::new();
+        if run.style == Style::Oblique {
+            attributes.push_str(" font-style=\"italic\"");
+        }
+        if run.style == Style::Bold {
+            attributes.push_str(" font-weight=\"bold\"");
+        }
+        if run.size < 1.0 {
+            let _ = write!(
+                attributes,
+                " font-size=\"{}\"",
+                Short(run.size * letters.size)
+            );
+        }
+        let down = (height - run.rise) * letters.size;
+        if down != 0.0 {
+            let _ = write!(attributes, " dy=\"{}\"", Short(down));
+        }
+        height = run.rise;
+        let words = escaped(&run.text);
+        let _ = match attributes.is_empty() {
+            true => write!(spans, "{words}"),
+            false => write!(spans, "<tspan{attributes}>{words}</tspan>"),
+        };
+    }
+    format!(
+        "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\" fill=\"{}\" xml:space=\"preserve\"{anchor}{turn}{rim}>{spans}</text>\n",
+        Short(letters.size),
+        letters.colour.hex()
+    )
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+}
+
+/// An image that a viewer stretches without smoothing.
+fn image([left, top, right, bottom]: [f64; 4], png: &[u8]) -> String {
+    format!(
+        "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" \
+         image-rendering=\"optimizeSpeed\" style=\"image-rendering:pixelated\" \
+         href=\"data:image/png;base64,{}\"/>\n",
+        Short(left),
+        Short(top),
+        Short(right - left),
+        Short(bottom - top),
+        STANDARD.encode(png)
+    )
+}
+
+fn cells(mosaic: &Mosaic) -> String {
+    let raster = mosaic.blocks();
+    let palette: Vec<u8> = mosaic
+        .colours
+        .iter()
+        .flat_map(|c| [c.0, c.1, c.2])
+        .collect();
+    // Writing to memory does not fail; an image without content shows nothing.
+    let png = indexed(raster.size, palette, None, &mosaic.sample(raster)).unwrap_or_default();
+    image(mosaic.shown, &png)
+}
+
+fn shades(density: &Density) -> String {
+    let Colour(red, green, blue) = density.colour;
+    let palette = [red, green, blue].repeat(256);
+    let opacities = (0..=255).collect();
+    let png = indexed(density.size, palette, Some(opacities), &density.shades);
+    image(density.sides, &png.unwrap_or_default())
+}
+
+/// A PNG of one byte for each pixel, the index of its colour.
+fn indexed(
+    size: (usize, usize),
+    palette: Vec<u8>,
+    opacities: Option<Vec<u8>>,
+    codes: &[u8],
+) -> Result<Vec<u8>, png::EncodingError> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, size.0 as u32, size.1 as u32);
+    encoder.set_color(png::ColorType::Indexed);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_palette(palette);
+    if let Some(opacities) = opacities {
+        encoder.set_trns(opacities);
+    }
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(codes)?;
+    writer.finish()?;
+    Ok(bytes)
 }
 
 /// Path data to a hundredth of a pixel; a vertical stroke, of which clouds have many, is a short `v`.
@@ -188,7 +228,6 @@ fn path(steps: &[Step]) -> String {
     }
     d
 }
-
 /// A coordinate with at most two decimals and no trailing zeros.
 struct Short(f64);
 
