@@ -114,20 +114,20 @@ impl Page {
         self.open = true;
         self.push(&format!(
             "<section id=\"s{id}\">\n<h2>{}</h2>\n",
-            escape(title)
+            typeset(title)
         ))
     }
 
     /// A heading below that of the section.
     #[must_use]
     pub fn subsection(self, title: &str) -> Self {
-        self.push(&format!("<h3>{}</h3>\n", escape(title)))
+        self.push(&format!("<h3>{}</h3>\n", typeset(title)))
     }
 
     /// A paragraph.
     #[must_use]
     pub fn paragraph(self, text: &str) -> Self {
-        self.push(&format!("<p>{}</p>\n", escape(text)))
+        self.push(&format!("<p>{}</p>\n", typeset(text)))
     }
 
     /// A list with a dot before each item.
@@ -135,12 +135,18 @@ impl Page {
     pub fn list<'a>(self, items: impl IntoIterator<Item = &'a str>) -> Self {
         let items: String = items
             .into_iter()
-            .map(|item| format!("<li>{}</li>\n", escape(item)))
+            .map(|item| format!("<li>{}</li>\n", typeset(item)))
             .collect();
         self.push(&format!("<ul>\n{items}</ul>\n"))
     }
 
-    /// A figure with a numbered caption.
+    /// A sentence that stands out, such as the verdict on all.
+    #[must_use]
+    pub fn lead(self, text: &str) -> Self {
+        self.push(&format!("<p class=\"lead\">{}</p>\n", typeset(text)))
+    }
+
+    /// A figure with a numbered caption: R1, R2 and so on, which no paper's numbers are. It leads to the first of its files.
     #[must_use]
     pub fn figure(mut self, figure: &FigureBlock) -> Self {
         self.figures += 1;
@@ -154,12 +160,20 @@ impl Page {
             .iter()
             .map(|(label, file)| link(label, file))
             .collect();
+        let image = format!(
+            "<img alt=\"{}\" src=\"{}\">",
+            escape(&plain(alternative)),
+            data_address(figure.image)
+        );
+        let image = match figure.files.first() {
+            Some((_, file)) => format!("<a href=\"./{}\">{image}</a>", escape(&address(file))),
+            None => image,
+        };
         let block = format!(
-            "<figure>\n<img alt=\"{}\" src=\"{}\">\n<figcaption><b>Figure {}.</b> {} <span class=\"files\">{}</span></figcaption>\n</figure>\n",
-            escape(alternative),
-            data_address(figure.image),
+            "<figure>\n<div class=\"scroll\">{image}</div>\n<figcaption><b>Figure R{}.</b> {} \
+             <span class=\"files\">{}</span></figcaption>\n</figure>\n",
             self.figures,
-            escape(figure.caption),
+            typeset(figure.caption),
             links.join(" · "),
         );
         self.push(&block)
@@ -189,35 +203,33 @@ impl Page {
             .map(|(i, cell)| (*cell, numeric(i)))
             .collect();
         let cells = |row: &Vec<String>| {
-            row_of(
-                row.iter()
-                    .enumerate()
-                    .map(|(i, cell)| data_cell(cell, numeric(i))),
-            )
+            let cells = row.iter().enumerate();
+            row_of(cells.map(|(i, cell)| {
+                let name = header.get(i).copied().unwrap_or_default();
+                data_cell(name, cell, numeric(i))
+            }))
         };
         let body: String = rows.iter().map(cells).collect();
         self.push(&table(&head, &body))
     }
 
-    /// The table of facts: claim, value, verdict and reading.
+    /// Claims one after the other, each with its verdict and our value; what the verdict depends on is folded away.
     #[must_use]
     pub fn facts(self, facts: &[Fact]) -> Self {
-        let rows: String = facts
-            .iter()
-            .map(|fact| {
-                let badge = format!("<td>{}</td>", badge(fact.verdict));
-                let name = format!("<th scope=\"row\">{}</th>", escape(&fact.name));
-                let text = |text: &str| format!("<td>{}</td>", escape(text));
-                row_of([
-                    name,
-                    text(&fact.claim),
-                    text(&fact.value),
-                    badge,
-                    text(&fact.reading),
-                ])
-            })
-            .collect();
-        self.push(&table(&FACTS.map(|name| (name, false)), &rows))
+        facts.iter().fold(self, |page, fact| {
+            let page = page.push(&format!(
+                "<div class=\"fact\">\n<h3>{} {}</h3>\n<blockquote>{}</blockquote>\n<p><b>Ours:</b> {}</p>\n",
+                typeset(&fact.name),
+                badge(fact.verdict),
+                typeset(&fact.claim),
+                typeset(&fact.value)
+            ));
+            let page = match fact.reading.as_str() {
+                "" | "-" => page,
+                reading => page.details("Depends on the reading", |page| page.paragraph(reading)),
+            };
+            page.push("</div>\n")
+        })
     }
 
     /// A block of code or of program output.
@@ -284,19 +296,14 @@ impl Page {
     }
 }
 
-/// Header of the table of facts.
-const FACTS: [&str; 5] = [
-    "Fact",
-    "Claim",
-    "Our value",
-    "Verdict",
-    "Depends on the reading",
-];
-
 /// A table from its header cells, each with whether its column is numeric, and the rows as markup.
 fn table(header: &[(&str, bool)], rows: &str) -> String {
     let cell = |(text, numeric): &(&str, bool)| {
-        format!("<th scope=\"col\"{}>{}</th>", class(*numeric), escape(text))
+        format!(
+            "<th scope=\"col\"{}>{}</th>",
+            class(*numeric),
+            typeset(text)
+        )
     };
     let head: String = header.iter().map(cell).collect();
     format!(
@@ -317,16 +324,21 @@ fn row_of(cells: impl IntoIterator<Item = String>) -> String {
     format!("<tr>{cells}</tr>\n")
 }
 
-/// A cell; one that names a verdict shows its badge.
-fn data_cell(cell: &str, numeric: bool) -> String {
+/// A cell of the column `name`, which a narrow screen shows beside it; one that names a verdict shows its badge.
+fn data_cell(name: &str, cell: &str, numeric: bool) -> String {
     let verdicts = [
         Verdict::Reproduced,
         Verdict::Departure,
         Verdict::NotReproduced,
     ];
+    let name = escape(&plain(name));
     match verdicts.into_iter().find(|verdict| verdict.words() == cell) {
-        Some(verdict) => format!("<td>{}</td>", badge(verdict)),
-        None => format!("<td{}>{}</td>", class(numeric), escape(cell)),
+        Some(verdict) => format!("<td data-name=\"{name}\">{}</td>", badge(verdict)),
+        None => format!(
+            "<td data-name=\"{name}\"{}>{}</td>",
+            class(numeric),
+            typeset(cell)
+        ),
     }
 }
 
@@ -364,6 +376,48 @@ fn data_address(image: Image) -> String {
         Image::Png(bytes) => ("image/png", bytes),
     };
     format!("data:{kind};base64,{}", STANDARD.encode(bytes))
+}
+
+/// Text as HTML shows it, its symbols typeset: a single letter with an index, as in ω_h, or a power, as in 10^−3.
+fn typeset(text: &str) -> String {
+    let letters: Vec<char> = text.chars().filter(|c| *c != '$').collect();
+    let mut html = String::with_capacity(text.len());
+    let mut at = 0;
+    while at < letters.len() {
+        let alone = at == 0 || !(letters[at - 1].is_alphanumeric() || letters[at - 1] == '_');
+        let next = letters.get(at + 1).copied();
+        if alone && letters[at].is_alphabetic() && next == Some('_') {
+            let index = script(&letters[at + 2..], char::is_alphanumeric);
+            if !index.is_empty() {
+                html += &format!("<i>{}</i><sub>{}</sub>", letters[at], escape(&index));
+                at += 2 + index.chars().count();
+                continue;
+            }
+        }
+        if letters[at] == '^' {
+            let power = script(&letters[at + 1..], |c| {
+                c.is_ascii_digit() || "-\u{2212}".contains(c)
+            });
+            if !power.is_empty() {
+                html += &format!("<sup>{}</sup>", escape(&power));
+                at += 1 + power.chars().count();
+                continue;
+            }
+        }
+        html += &escape(letters[at].encode_utf8(&mut [0; 4]));
+        at += 1;
+    }
+    html
+}
+
+/// The letters of a script at the beginning.
+fn script(letters: &[char], fits: impl Fn(char) -> bool) -> String {
+    letters.iter().copied().take_while(|&c| fits(c)).collect()
+}
+
+/// Text without the marks of symbols.
+fn plain(text: &str) -> String {
+    text.replace('$', "")
 }
 
 /// Text as HTML shows it, safe in elements and in quoted attributes.
@@ -449,6 +503,18 @@ mod tests {
     }
 
     #[test]
+    fn symbols_are_typeset_and_names_are_not() {
+        assert_eq!(
+            typeset("PRF/(m_h g) at $ω_h$, 4^2/π^2 < 10^-3"),
+            "PRF/(<i>m</i><sub>h</sub> g) at <i>ω</i><sub>h</sub>, 4<sup>2</sup>/π<sup>2</sup> &lt; 10<sup>-3</sup>"
+        );
+        assert_eq!(
+            typeset("damping_ratio, w_, a^, _x"),
+            "damping_ratio, w_, a^, _x"
+        );
+    }
+
+    #[test]
     fn verdicts_differ_without_colour() {
         let html = Page::new("t")
             .table(
@@ -460,6 +526,6 @@ mod tests {
             html.contains("✗</span>&nbsp;not reproduced")
                 && html.contains("✓</span>&nbsp;reproduced")
         );
-        assert!(html.contains("<td class=\"number\">2.5</td>"));
+        assert!(html.contains("<td data-name=\"n\" class=\"number\">2.5</td>"));
     }
 }

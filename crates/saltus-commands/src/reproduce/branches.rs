@@ -37,8 +37,11 @@ pub(super) fn write(album: &mut Album<'_>, results: &Results) -> Result<(), Comm
         "Switches",
     ];
     album.with(|page| {
-        page.subsection("Special points that sweeps meet: on one side at least the orbit is stable")
-            .table(&columns, rows)
+        let title = format!(
+            "The {} bifurcations and grazings that sweeps meet: on one side at least the orbit is stable",
+            rows.len()
+        );
+        page.details(&title, |page| page.table(&columns, rows))
     });
     let others = details(results).flat_map(|(_, detail)| &detail.transitions);
     let others = others.filter(|transition| !transition.seen).count();

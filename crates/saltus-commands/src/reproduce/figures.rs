@@ -1,5 +1,6 @@
 //! The figures of the paper, and those it does not have.
 
+use saltus::model::Observation;
 use saltus::physics::{ContactLaw, FrequencyReference};
 use saltus::study::Pass;
 use saltus_paper::{CaseResult, Diagram, InertiaRow, RATIOS};
@@ -83,7 +84,11 @@ pub(super) fn laws(results: &Results) -> Figure {
             let (more_x, more_y) = points(diagram, 1);
             x.extend(more_x);
             y.extend(more_y);
-            cloud = cloud.series(law.name(), x, y);
+            let label = match law {
+                ContactLaw::ReactionForce => law.name().to_owned(),
+                other => format!("{}, where it differs", other.name()),
+            };
+            cloud = cloud.series(label, x, y);
         }
         Some(Panel::from(cloud))
     });
@@ -115,7 +120,7 @@ pub(super) fn inertia(results: &Results) -> Figure {
             Axis::new(HEIGHT),
         )
         .series("full, 17 degrees of freedom", fx, fy)
-        .series("condensed, 5 degrees of freedom", cx, cy);
+        .series("condensed, 5 degrees of freedom, where it differs", cx, cy);
         Panel::from(cloud)
     });
     Figure::grid(3, panels)
@@ -123,12 +128,23 @@ pub(super) fn inertia(results: &Results) -> Figure {
         .plot_size(420.0, 320.0)
 }
 
-/// Fig. 3: phase portraits with stroboscopic points.
+/// Fig. 3: phase portraits with stroboscopic points. Those of one frequency share their scales.
 pub(super) fn portraits(results: &Results) -> Figure {
-    let panels = results
-        .cases
-        .iter()
-        .map(|result| Panel::from(portrait(result)));
+    let panels = results.cases.iter().map(|result| {
+        let alike = results.cases.iter();
+        let alike = alike.filter(|other| other.case.ratio == result.case.ratio);
+        let states = alike.flat_map(|case| &case.trajectory.history.states);
+        let range = |of: fn(&Observation) -> f64| {
+            let values = states.clone().map(of);
+            let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+                (low.min(v), high.max(v))
+            });
+            let margin = 0.06 * (high - low);
+            (low - margin, high + margin)
+        };
+        let (z, v) = (range(|s| s.z[0]), range(|s| s.v[0]));
+        Panel::from(portrait(result, z, v))
+    });
     Figure::grid(2, panels)
         .title("Fig. 3: phase portraits and Poincaré points at $cos Ωt = 1$")
         .plot_size(460.0, 330.0)
@@ -148,7 +164,7 @@ fn heading(result: &CaseResult) -> String {
     )
 }
 
-fn portrait(result: &CaseResult) -> Portrait {
+fn portrait(result: &CaseResult, heights: (f64, f64), speeds: (f64, f64)) -> Portrait {
     let history = &result.trajectory.history;
     let z: Vec<f64> = history.states.iter().map(|s| s.z[0]).collect();
     let v: Vec<f64> = history.states.iter().map(|s| s.v[0]).collect();
@@ -157,7 +173,9 @@ fn portrait(result: &CaseResult) -> Portrait {
     let kept = result.recurrence.map_or(usize::MAX, |n| n as usize);
     let section = result.trajectory.section.iter().take(kept);
     let points: (Vec<f64>, Vec<f64>) = section.map(|s| (s.z[0], s.v[0])).unzip();
-    Portrait::new(heading(result), Axis::new(HEIGHT), Axis::new(VELOCITY))
+    let x = Axis::new(HEIGHT).range(heights.0, heights.1);
+    let y = Axis::new(VELOCITY).range(speeds.0, speeds.1);
+    Portrait::new(heading(result), x, y)
         .marked_path(("on the floor", "in flight"), z, v, &flight)
         .points("Poincaré points", points.0, points.1)
 }
@@ -174,6 +192,7 @@ pub(super) fn forces(results: &Results) -> Figure {
     Figure::grid(2, panels)
         .title("Plate reaction force PRF of the cases of Fig. 3")
         .plot_size(460.0, 230.0)
+        .same_scales()
 }
 
 fn force(result: &CaseResult) -> History {

@@ -30,8 +30,10 @@ pub(super) fn write(
     if results.quick {
         album.say(&[QUICK]);
     }
-    statements(&mut album, results, report);
+    let verdict = verdict(results);
+    album.with(|page| page.lead(&verdict));
     fig2(&mut album, results)?;
+    statements(&mut album, results, report);
     branches::write(&mut album, results)?;
     fig3(&mut album, results)?;
     ambiguities(&mut album, results, report)?;
@@ -39,6 +41,28 @@ pub(super) fn write(
     method(&mut album, results);
     let Album { folder, page } = album;
     folder.text("index.html", &page.render())
+}
+
+/// All verdicts in a line.
+fn verdict(results: &Results) -> String {
+    let count = |verdict: Verdict| {
+        let its = results.facts.iter().filter(|fact| fact.verdict == verdict);
+        its.count()
+    };
+    let all = results.facts.len();
+    let mut line = format!(
+        "{} of {all} statements of the paper are reproduced",
+        count(Verdict::Reproduced)
+    );
+    for (verdict, words) in [
+        (Verdict::Departure, "with a departure"),
+        (Verdict::NotReproduced, "not reproduced"),
+    ] {
+        if count(verdict) > 0 {
+            line += &format!(", {} {words}", count(verdict));
+        }
+    }
+    line + "."
 }
 
 fn statements(album: &mut Album<'_>, results: &Results, report: &Report) {
@@ -66,12 +90,13 @@ fn statements(album: &mut Album<'_>, results: &Results, report: &Report) {
 }
 
 fn fig2(album: &mut Album<'_>, results: &Results) -> Result<(), CommandError> {
-    album.section("Figure 2: bifurcation diagrams");
+    album.section("The paper's Fig. 2: bifurcation diagrams");
     let effort = &results.effort;
     let caption = format!(
         "Height of the body once per forcing period against its damping ratio, {} values, {} periods kept \
-         after {}. Rising and falling sweeps carry the state on; the other colours start anew at each value \
-         with the plate at rest. Where colours part, attractors coexist, or transients are long: {}.",
+         after {}. Black: rising sweep, which carries the state on. In colour, where they lead elsewhere: the falling sweep, \
+         and runs that start anew at each value with the plate at rest. There attractors coexist, or transients are \
+         long: {}.",
         effort.values,
         effort.record,
         effort.transient,
@@ -88,7 +113,7 @@ fn fig2(album: &mut Album<'_>, results: &Results) -> Result<(), CommandError> {
 }
 
 fn fig3(album: &mut Album<'_>, results: &Results) -> Result<(), CommandError> {
-    album.section("Figure 3: the named motions");
+    album.section("The paper's Fig. 3: the named motions");
     album.say(&[
         "The paper gives the damping ratio of (e), (f) and (g); the others are chosen inside the regime it \
          names: 0.15 and 0.35 in (a) and (b), 0.12 and 0.21 in (c) and (d), 0.45 in (h).",
@@ -159,8 +184,10 @@ fn ambiguities(
             .misprints
             .iter()
             .map(|m| [&m.place, &m.printed, &m.used, &m.effect].map(String::as_str));
-        page.subsection("Misprints and gaps, with the size of their effect")
-            .table(&["Where", "Printed", "Used here", "Effect"], rows)
+        page.details(
+            "Misprints and gaps, with the size of their effect",
+            |page| page.table(&["Where", "Printed", "Used here", "Effect"], rows),
+        )
     });
     Ok(())
 }
@@ -183,9 +210,11 @@ fn beyond(album: &mut Album<'_>, results: &Results, report: &Report) -> Result<(
     )?;
     let rows: Vec<Vec<String>> = law_rows(&report.regimes);
     album.with(|page| {
-        page.subsection("Stable cycles under each law, where they are stable over 0.02 or more")
-            .table(&["Ω/ω_h", "Law", "Stable cycles (ζ_h)"], rows)
-            .files([("all of them", "regimes.csv")])
+        let title = "Stable cycles under each law, where they are stable over 0.02 or more";
+        page.details(title, |page| {
+            page.table(&["Ω/ω_h", "Law", "Stable cycles (ζ_h)"], rows)
+                .files([("all of them", "regimes.csv")])
+        })
     });
     let i = &report.full_against_condensed;
     let caption = format!(
@@ -227,7 +256,7 @@ fn method(album: &mut Album<'_>, results: &Results) {
     album.section("How it was computed");
     let effort = &results.effort;
     let solver = "Taylor series with adaptive steps; take-off and touch-down located to rounding. The diagrams \
-                  allow 1e-7 of the plate thickness per step, the named motions 1e-10. Figures 2 and 3 use the \
+                  allow 1e-7 of the plate thickness per step, the named motions 1e-10. The paper's Figs. 2 and 3 use the \
                   condensed model.";
     let exponents = format!(
         "Exponents: the tangent flow over {} periods, standard errors from batches long enough to be independent.",

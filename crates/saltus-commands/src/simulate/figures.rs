@@ -22,6 +22,8 @@ pub(super) fn draw(found: &Found, take: Take) -> Result<(), CommandError> {
 
 /// People whose forces and heights stand in one figure.
 const FEW: usize = 3;
+/// Periods shown of each where the panels are small.
+const FEW_PERIODS: f64 = 6.0;
 
 /// Periods that the time history covers, begun ones too.
 fn periods(found: &Found) -> usize {
@@ -73,13 +75,15 @@ fn histories(found: &Found, kinds: &[fn(&Found, usize) -> Panel]) -> Figure {
 }
 
 fn history(found: &Found, jumper: usize, y: &str) -> History {
-    let from = found.trajectory.history.time.first().copied();
-    History::new(
-        panel_title(jumper, found.jumpers()),
-        Axis::new("Time $t$ (s)"),
-        Axis::new(y),
-    )
-    .shade("Flight", &flights::of(found, jumper, from.unwrap_or(0.0)))
+    let times = &found.trajectory.history.time;
+    let from = times.first().copied();
+    let mut axis = Axis::new("Time $t$ (s)");
+    if let (true, Some(&last)) = (found.jumpers() > FEW, times.last()) {
+        let period = std::f64::consts::TAU / found.model.scales().omega;
+        axis = axis.range(last - FEW_PERIODS * period, last);
+    }
+    History::new(panel_title(jumper, found.jumpers()), axis, Axis::new(y))
+        .shade("Flight", &flights::of(found, jumper, from.unwrap_or(0.0)))
 }
 
 fn force(found: &Found, jumper: usize) -> Panel {

@@ -37,7 +37,11 @@ fn cloud(found: &Found, jumper: usize, title: &str) -> Cloud {
             heights.iter().map(|&z| (row.run.value, z))
         });
         let (values, heights): (Vec<f64>, Vec<f64>) = points.unzip();
-        cloud.series(label(found, pass), values, heights)
+        let differs = match index {
+            0 => "",
+            _ => ", where it differs",
+        };
+        cloud.series(format!("{}{differs}", label(found, pass)), values, heights)
     })
 }
 
@@ -110,10 +114,6 @@ fn around(values: &[f64], i: usize) -> (f64, f64) {
 /// Entry of the legend.
 fn label(found: &Found, pass: &Pass) -> String {
     let symbol = found.parameter.symbol();
-    let differs = match pass == &found.sweep.passes[0] {
-        true => "",
-        false => ", where it differs",
-    };
     match *pass {
         Pass::Up | Pass::Down => {
             let values = &found.sweep.values;
@@ -124,8 +124,8 @@ fn label(found: &Found, pass: &Pass) -> String {
             } else {
                 "falling"
             };
-            format!("${symbol}$ {way}{differs}")
+            format!("${symbol}$ {way}")
         }
-        Pass::Start { z, v } => format!("From $z/η$ = {z}, $ż/(η ω_h)$ = {v}{differs}"),
+        Pass::Start { z, v } => format!("From $z/η$ = {z}, $ż/(η ω_h)$ = {v}"),
     }
 }

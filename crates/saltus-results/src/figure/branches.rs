@@ -164,7 +164,7 @@ impl Branches {
 /// Width of a branch (px).
 const WIDTH: f64 = 1.9;
 /// Pen (px) and colour of the points behind.
-const BEHIND: (f64, Colour) = (1.3, Colour(188, 188, 188));
+const BEHIND: (f64, Colour) = (1.3, Colour(110, 110, 110));
 
 impl From<Branches> for Panel {
     fn from(diagram: Branches) -> Self {
@@ -204,6 +204,10 @@ impl From<Branches> for Panel {
             };
             panel.key(branch.label, swatch);
         }
+        // periods in their order, not in that of their discovery
+        panel
+            .keys
+            .sort_by_key(|key| (key.label.len(), key.label.clone()));
         styles(&mut panel, !stable.is_empty(), !unstable.is_empty());
         panel.layers.extend(unstable.into_iter().chain(stable));
         specials(&mut panel, &diagram.specials);

@@ -4,7 +4,7 @@ use super::axis::{Axis, Extent};
 use super::colour::Colour;
 use super::panel::{Layer, Panel, Swatch};
 use std::cmp::Reverse;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Several clouds of points over a common parameter.
 ///
@@ -98,8 +98,13 @@ impl Cloud {
 /// Diameter (px) of dots that are apart and many.
 const FINE: f64 = 2.2;
 
-/// Diameter (px) of a point of a cloud.
-const POINT: f64 = 1.7;
+/// Diameter (px) of a point of a cloud over many values of its parameter, and over few.
+const POINT: (f64, f64) = (1.7, 3.4);
+
+/// Diameter (px) of the points of a cloud over so many values.
+fn point(values: usize) -> f64 {
+    (0.3 * 760.0 / values.max(1) as f64).clamp(POINT.0, POINT.1)
+}
 
 /// Distance of points that look the same, as a share of the extent of all, and the share of the points of two clouds
 /// that have such a neighbour in the other if both are the same.
@@ -139,8 +144,26 @@ fn rows(series: &Series) -> Rows {
     rows
 }
 
-/// Whether most points of each of two sorted rows have a neighbour in the other.
+/// Points that are apart beyond which a row is no cycle but a cloud, and the part of their extent that two clouds have
+/// in common at least if they are samples of one.
+const CYCLE: usize = 32;
+const COMMON: f64 = 0.6;
+
+/// Whether two sorted rows look the same: two clouds if they extend alike, others if most points of each have a
+/// neighbour in the other.
 fn alike(one: &[f64], two: &[f64], near: f64) -> bool {
+    let cloud = |points: &[f64]| {
+        let apart = points
+            .windows(2)
+            .filter(|pair| pair[1] - pair[0] > 0.02 * near);
+        apart.count() > CYCLE
+    };
+    if let ([a, .., b], [c, .., d]) = (one, two)
+        && cloud(one)
+        && cloud(two)
+    {
+        return b.min(*d) - a.max(*c) > COMMON * (b.max(*d) - a.min(*c));
+    }
     let covered = |points: &[f64], by: &[f64]| {
         let close = |y: &&f64| {
             let next = by.partition_point(|other| *other < **y - near);
@@ -164,9 +187,11 @@ impl From<Cloud> for Panel {
         heights.for_each(|&y| extent.include(&panel.y, y));
         let extent = extent.limits().map_or(0.0, |(low, high)| high - low);
         let mut before: Vec<Rows> = Vec::new();
+        let values = cloud.series.iter().flat_map(|series| &series.x);
+        let values: BTreeSet<u64> = values.map(|x| x.to_bits()).collect();
+        let pen = cloud.apart.unwrap_or(point(values.len()));
         for (index, series) in cloud.series.into_iter().enumerate() {
             let colour = series.colour.unwrap_or(Colour::of(order, index));
-            let pen = cloud.apart.unwrap_or(POINT);
             let (x, y) = match cloud.apart {
                 Some(_) => (series.x, series.y),
                 None => {

@@ -84,7 +84,12 @@ fn drafts(figure: &Figure, columns: usize, plot: (f64, f64)) -> Vec<Draft<'_>> {
     let panels = figure.panels.iter().zip(extents).enumerate();
     panels
         .map(|(index, (panel, extents))| {
-            let bare = stack && index + 1 < figure.panels.len();
+            // With common scales the panels at the left and the lowest ones have the numbers for all.
+            let below = index + columns < figure.panels.len();
+            let bare = (
+                below && (stack || figure.shared),
+                figure.shared && index % columns > 0,
+            );
             Draft::new(figure, (index, panel), extents, plot, bare)
         })
         .collect()
@@ -130,17 +135,20 @@ impl<'a> Draft<'a> {
         (index, panel): (usize, &'a Panel),
         (across, up): (Extent, Extent),
         (width, height): (f64, f64),
-        bare: bool,
+        bare: (bool, bool),
     ) -> Self {
         let ticks = |length: f64, room: f64| (length / room).round().clamp(3.0, 8.0) as usize;
         let x =
             Scale::resolve(&panel.x, across, panel.pad.0, ticks(width, 95.0)).between(0.0, width);
         let y = Scale::resolve(&panel.y, up, panel.pad.1, ticks(height, 60.0)).between(height, 0.0);
         let mut below = Side::horizontal(&x, &x.label(&panel.x), width);
-        if bare {
+        if bare.0 {
             below.strip();
         }
-        let left = Side::vertical(&y, &y.label(&panel.y), height);
+        if bare.1 {
+            left.strip();
+        }
+        let mut left = Side::vertical(&y, &y.label(&panel.y), height);
         let tag = if figure.tagged {
             tag(index)
         } else {

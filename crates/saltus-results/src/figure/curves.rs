@@ -121,7 +121,10 @@ impl Curves {
     pub fn shade(mut self, label: impl Into<String>, intervals: &[(f64, f64)]) -> Self {
         let colour = Colour::of(&Colour::SHADES, self.shades);
         self.shades += 1;
-        self.panel.shade(label.into(), intervals, colour);
+        // the colour is taken all the same, so that it means the same in every figure
+        if !intervals.is_empty() {
+            self.panel.shade(label.into(), intervals, colour);
+        }
         self
     }
 

@@ -12,7 +12,11 @@ body { margin: 0 auto; max-width: 62rem; padding: 1.5rem 1.25rem 4rem; backgroun
 h1 { font-size: 1.9rem; line-height: 1.2; margin: 0.5rem 0 1rem; }
 h2 { font-size: 1.4rem; margin: 2.6rem 0 0.8rem; padding-bottom: 0.3rem; border-bottom: 1px solid var(--line); }
 h3 { font-size: 1.1rem; margin: 1.8rem 0 0.5rem; }
-p, li { max-width: 46rem; }
+p, li, blockquote { max-width: 46rem; }
+.lead { font-size: 1.15rem; font-weight: 600; }
+blockquote { margin: 0.3rem 0; padding-left: 0.8rem; border-left: 3px solid var(--line); color: var(--soft); }
+.fact h3 .badge { margin-left: 0.4rem; }
+sub, sup { line-height: 0; }
 a { color: var(--link); }
 nav { background: var(--panel); border: 1px solid var(--line); border-radius: 8px; padding: 0.7rem 1rem; }
 nav ol { margin: 0; padding-left: 1.4rem; columns: 18rem auto; }
@@ -37,6 +41,16 @@ pre { overflow-x: auto; padding: 0.8rem 1rem; background: var(--panel); border: 
   border-radius: 8px; font: 0.87rem/1.5 ui-monospace, SFMono-Regular, Consolas, "DejaVu Sans Mono", monospace; }
 details { margin: 1rem 0; padding: 0.5rem 1rem; border: 1px solid var(--line); border-radius: 8px; }
 summary { cursor: pointer; font-weight: 600; }
+@media (max-width: 40rem) {
+  body { padding: 1rem 0.8rem 3rem; }
+  /* a figure keeps a width at which its type is read, and is moved sideways */
+  figure img { min-width: 38rem; }
+  table, tbody, tr, td { display: block; } thead { display: none; }
+  tr { padding: 0.4rem 0; border-bottom: 1px solid var(--line); }
+  td { padding: 0.1rem 0; border: none; text-align: left; white-space: normal; }
+  td::before { content: attr(data-name) ": "; color: var(--soft); }
+  td[data-name=""]::before { content: none; }
+}
 @media print { :root { color-scheme: light; --ground: #fff; --ink: #000; --soft: #444; --line: #bbb; --panel: #fff;
     --link: #000; --yes: #000; --partly: #000; --no: #000; }
   body { max-width: none; padding: 0; font-size: 10.5pt; } nav { display: none; }
