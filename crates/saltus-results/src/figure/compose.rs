@@ -145,10 +145,10 @@ impl<'a> Draft<'a> {
         if bare.0 {
             below.strip();
         }
+        let mut left = Side::vertical(&y, &y.label(&panel.y), height);
         if bare.1 {
             left.strip();
         }
-        let mut left = Side::vertical(&y, &y.label(&panel.y), height);
         let tag = if figure.tagged {
             tag(index)
         } else {
