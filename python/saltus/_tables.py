@@ -117,11 +117,12 @@ class Plate:
     "full": They move with their own inertia (the paper); slower to integrate.
 
     "slow-manifold": They follow the transverse motion as fast oscillators do,
-    with two terms of their inertia: as exact as "full" for most purposes, some
-    twenty times faster; at most 9 w terms.
+    with two terms of their inertia: in the paper's case within 2e-9 h of "full"
+    after 20 periods and some 25 times faster; at most 9 w terms.
 
-    "condensed": They follow the transverse motion statically; only transverse
-    amplitudes and people remain.
+    "condensed": They follow the transverse motion statically, so that only
+    transverse amplitudes and people remain: in the paper's case within 7e-4 h of
+    "full" after 20 periods and some 100 times faster.
     """
 
 
@@ -155,8 +156,9 @@ class Jumper:
 class Contact:
     """When feet leave the floor and come back."""
 
-    law: Literal["reaction-force", "gap", "relaxing-leg"]
+    law: Literal["reaction-force", "gap", "relaxing-leg"] | None = None
     """Contact law (a word): "reaction-force" (the paper), "gap" or "relaxing-leg".
+    Default: "reaction-force".
 
     "reaction-force": Contact while the force of the leg is positive, both ways
     (the paper).

@@ -62,7 +62,7 @@ class Study:
 
     plate: Plate
     base: Base
-    contact: Contact
+    contact: Contact | None = None
     jumper: Sequence[Jumper] = ()
     gravity: Gravity | None = None
     start: Start | None = None

@@ -80,11 +80,11 @@ fn accuracy(request: &Request, study: &Study, options: &Options) -> Vec<Value> {
             Method::Rk4 { .. } => RK4,
         });
         known.push(CHAOS);
-    }
-    match study.plate.inertia {
-        Inertia::Full => {}
-        Inertia::SlowManifold => known.push(SLOW_MANIFOLD),
-        Inertia::Condensed => known.push(CONDENSED),
+        match study.plate.inertia {
+            Inertia::Full => {}
+            Inertia::SlowManifold => known.push(SLOW_MANIFOLD),
+            Inertia::Condensed => known.push(CONDENSED),
+        }
     }
     if solves(request) {
         known.push(SPECIAL_POINTS);
@@ -158,7 +158,7 @@ mod tests {
 
     #[test]
     fn a_result_says_what_it_is_and_says_it_again() {
-        let mut study = Study::paper();
+        let mut study = crate::reproduce::study();
         let told = about(&Request::Simulate, &study);
         assert_eq!(told, about(&Request::Simulate, &study));
         assert_eq!(told["request"]["command"], "simulate");

@@ -8,6 +8,7 @@ use std::fmt::Write;
 
 /// Legal, but probably not meant.
 pub fn warnings(study: &Study) -> Vec<String> {
+    let impossible = study.setup().check().err();
     let plate = study.plate();
     let unmoved = |&(_, jumper): &(usize, &saltus::physics::Jumper)| plate.on_nodal_lines(jumper);
     let jumpers = study.jumpers();
@@ -39,7 +40,9 @@ pub fn warnings(study: &Study) -> Vec<String> {
         let refused = study.set(&axis.parameter, axis.from()).err()?;
         Some(format!("[attractors] cannot run: {refused}"))
     });
-    alone
+    let impossible = impossible.iter().map(ToString::to_string);
+    impossible
+        .chain(alone)
         .chain(sweep)
         .chain(map)
         .chain(basins)

@@ -157,7 +157,7 @@ impl Request {
             Self::Continue {
                 origin: Some(origin),
             } => continuation::adopted(origin, study),
-            Self::Reproduce { .. } => Ok(Study::paper()),
+            Self::Reproduce { .. } => Ok(reproduce::study()),
             _ => Ok(study.clone()),
         }
     }

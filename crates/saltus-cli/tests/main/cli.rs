@@ -116,13 +116,17 @@ fn check_json_is_one_document_with_the_resolved_study() {
 }
 
 #[test]
-fn check_warns_of_a_jumper_who_moves_nothing() {
+fn check_warns_of_what_moves_nothing_or_cannot_move() {
     let desk = Desk::new();
     let set = "plate.modes={ u = [], v = [], w = [[2, 1]] }";
     saltus(&["check", &desk.paper(), "--set", set])
         .assert()
         .success()
         .stdout(contains("nodal line"));
+    saltus(&["check", &desk.paper(), "--set", "plate.modes=4x4"])
+        .assert()
+        .success()
+        .stdout(contains("\"slow-manifold\" with 16 w terms: at most 9"));
 }
 
 #[test]

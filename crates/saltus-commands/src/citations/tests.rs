@@ -26,7 +26,7 @@ const NOT_CITED: [&str; 16] = [
 ];
 
 fn study(change: impl FnOnce(&mut Study)) -> Study {
-    let mut study = Study::paper();
+    let mut study = crate::reproduce::study();
     change(&mut study);
     study
 }

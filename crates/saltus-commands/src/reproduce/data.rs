@@ -6,7 +6,7 @@ use crate::data::{Listed, about, coordinate, padded, texts};
 use crate::kinds;
 use crate::quantities as q;
 use saltus::study::Pass;
-use saltus_config::{Parameter, Study};
+use saltus_config::Parameter;
 use saltus_paper::{Detail, Diagram, Met, PanelBranches};
 use saltus_results::{Dataset, Table, Variable};
 
@@ -55,7 +55,7 @@ fn fig2(results: &Results) -> Dataset {
     let damping = damping(&values);
     let value = damping.name().to_owned();
     let over = ["panel", "pass", &value, "sample"];
-    let set = about("Fig. 2 of Dias & Del Prado", &Study::paper())
+    let set = about("Fig. 2 of Dias & Del Prado", &results.study)
         .header("coordinates", "base_frequency direction start_z start_v")
         .coordinate(q::PANEL.along(tags))
         .coordinate(q::PASS.numbered(0, passes.len()))

@@ -22,7 +22,7 @@ use crate::context::RunContext;
 use crate::failure::CommandError;
 use crate::store::Store;
 use facts::Report;
-use saltus_config::Study;
+use saltus_config::{Inertia, Study};
 use saltus_results::Dataset;
 
 /// Everything computed.
@@ -37,6 +37,13 @@ struct Results {
     facts: Vec<saltus_paper::Fact>,
     misprints: Vec<Misprint>,
     inertia: InertiaComparison,
+}
+
+/// The paper's study, with its full in-plane inertia.
+pub(crate) fn study() -> Study {
+    let mut study = Study::paper();
+    study.plate.inertia = Inertia::Full;
+    study
 }
 
 pub(crate) fn ask(quick: bool, context: &RunContext) -> Result<Box<dyn Answer>, CommandError> {
@@ -112,7 +119,7 @@ fn compute(quick: bool, context: &RunContext) -> Result<Results, CommandError> {
         saltus_paper::compare_inertia(&effort, &control)
     })?;
     Ok(Results {
-        study: Study::paper(),
+        study: study(),
         quick,
         effort,
         diagrams,

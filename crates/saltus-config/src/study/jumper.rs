@@ -47,8 +47,8 @@ impl JumperTable {
 }
 
 /// When feet leave the floor and come back.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Validate)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema, Validate)]
+#[serde(deny_unknown_fields, default)]
 pub struct ContactTable {
     /// Contact law (a word): "reaction-force" (the paper), "gap" or "relaxing-leg".
     #[garde(skip)]
@@ -56,10 +56,11 @@ pub struct ContactTable {
 }
 
 /// The law that decides between contact and flight.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Law {
     /// Contact while the force of the leg is positive, both ways (the paper).
+    #[default]
     ReactionForce,
     /// In flight the leg has its natural length; touch-down when the gap closes.
     Gap,

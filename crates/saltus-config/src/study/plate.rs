@@ -65,7 +65,7 @@ impl PlateTable {
             damping_ratio: 0.02,
             modes: Modes::Paper,
             basis: Basis::Fixed,
-            inertia: Inertia::Full,
+            inertia: Inertia::SlowManifold,
         }
     }
 }
@@ -88,9 +88,10 @@ pub enum Inertia {
     /// They move with their own inertia (the paper); slower to integrate.
     #[default]
     Full,
-    /// They follow the transverse motion as fast oscillators do, with two terms of their inertia: as
-    /// exact as "full" for most purposes, some twenty times faster; at most 9 w terms.
+    /// They follow the transverse motion as fast oscillators do, with two terms of their inertia: in the paper's
+    /// case within 2e-9 h of "full" after 20 periods and some 25 times faster; at most 9 w terms.
     SlowManifold,
-    /// They follow the transverse motion statically; only transverse amplitudes and people remain.
+    /// They follow the transverse motion statically, so that only transverse amplitudes and people remain: in the
+    /// paper's case within 7e-4 h of "full" after 20 periods and some 100 times faster.
     Condensed,
 }

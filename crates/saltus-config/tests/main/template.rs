@@ -88,6 +88,22 @@ fn tables_with_defaults_may_be_left_out() {
 }
 
 #[test]
+fn without_words_the_paper_decides() {
+    let words = ["[contact]", "law =", "inertia ="];
+    let plain = |line: &&str| !words.iter().any(|word| line.starts_with(word));
+    let text = paper_template();
+    let kept: Vec<&str> = text.lines().filter(plain).collect();
+    assert_eq!(kept.len(), text.lines().count() - words.len());
+    let study = parse("plain", &kept.join("\n"), &[]).unwrap();
+    assert_eq!(study.contact, Study::paper().contact);
+    assert_eq!(Study::paper().plate.inertia, Inertia::SlowManifold);
+    assert_eq!(study.plate.inertia, Inertia::Full);
+    // an empty table is as good as none
+    let empty = parse("empty", &format!("{}\n[contact]", kept.join("\n")), &[]).unwrap();
+    assert_eq!(empty, study);
+}
+
+#[test]
 fn schema_describes_every_key_with_its_unit() {
     let schema = schema();
     assert_eq!(

@@ -85,10 +85,6 @@ impl Model {
         with_energy: bool,
     ) -> Result<Self, ModelError> {
         setup.check()?;
-        if setup.inertia == Inertia::SlowManifold && !plate.stretching.has_slow_manifold() {
-            let (terms, limit) = (plate.elasticity.bending.len(), elastic::MANY - 1);
-            return Err(ModelError::SlowManifold { terms, limit });
-        }
         let omega = setup.base.omega(&setup.plate, &setup.jumpers)?;
         let scales = Scales::new(setup, omega);
         let layout = Layout {

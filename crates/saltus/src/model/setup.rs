@@ -1,5 +1,6 @@
 //! The setup: plate, people and base in SI units, before anything is made of it.
 
+use super::elastic::MANY;
 use super::error::ModelError;
 use crate::physics::{
     Base, BaseFrequency, ContactLaw, FrequencyReference, Jumper, PhysicsError, Plate,
@@ -78,7 +79,11 @@ impl Setup {
         }
     }
 
-    pub(super) fn check(&self) -> Result<(), ModelError> {
+    /// Checks what can be seen without any algebra; [`Setup::model`] does it too.
+    ///
+    /// # Errors
+    /// [`ModelError`] names the quantity that is wrong.
+    pub fn check(&self) -> Result<(), ModelError> {
         self.base.check()?;
         PhysicsError::require(
             self.gravity > 0.0,
@@ -94,6 +99,10 @@ impl Setup {
                     law: self.contact.name(),
                 });
             }
+        }
+        let (terms, limit) = (self.plate.modes.w.len(), MANY - 1);
+        if self.inertia == Inertia::SlowManifold && terms > limit {
+            return Err(ModelError::SlowManifold { terms, limit });
         }
         Ok(())
     }

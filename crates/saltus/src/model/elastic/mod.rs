@@ -46,11 +46,6 @@ impl Stretching {
         })))
     }
 
-    /// Whether [`Inertia::SlowManifold`] is possible.
-    pub(crate) fn has_slow_manifold(&self) -> bool {
-        matches!(self, Self::Few(_))
-    }
-
     /// The forces as nodes.
     pub(crate) fn forces(
         &self,
