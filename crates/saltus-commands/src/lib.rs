@@ -48,6 +48,6 @@ pub use destination::Destination;
 pub use failure::CommandError;
 pub use pieces::ShardReport;
 pub use request::Request;
-pub use saved::{Rerun, SavedResult};
+pub use saved::{KeptResult, Rerun, SavedResult};
 pub use shard::{DefectivePiece, Shard, ShardError};
 pub use store::{Fill, Folder, Store};

@@ -15,7 +15,7 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use crate::answer::{Answer, Figure, ask, compute, pieces, program, write};
+    use crate::answer::{Answer, Figure, ask, compute, pieces, program, read, write};
     #[pymodule_export]
     use crate::running::{count, shut_down};
     #[pymodule_export]

@@ -26,6 +26,7 @@
 
 mod check;
 mod file;
+pub(crate) mod open;
 
 use crate::{ResultsError, Table};
 
@@ -190,6 +191,17 @@ impl Dataset {
     pub fn to_bytes(self) -> Result<Vec<u8>, ResultsError> {
         self.check()?;
         file::encode(self)
+    }
+
+    /// The dataset in the bytes of a file that [`to_bytes`](Self::to_bytes) made: arrays, attributes, flags and fill
+    /// values to the bit and in their order. Tables are in no such file.
+    ///
+    /// # Errors
+    /// [`ResultsError::Unreadable`] if the bytes are no such file.
+    pub fn from_bytes(bytes: Vec<u8>) -> Result<Self, ResultsError> {
+        open::decode(bytes).map_err(|error| ResultsError::Unreadable {
+            reason: error.to_string(),
+        })
     }
 
     /// Whether all parts fit each other, for who takes them from memory.
