@@ -2,25 +2,30 @@
 
 from __future__ import annotations
 
+import base64
+import csv
+import html
 import json
 import os
-from collections.abc import Iterator, Mapping
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from saltus import _native
+from saltus._errors import unknown
 from saltus.study import Study
 
 if TYPE_CHECKING:
     import pandas
     import xarray
 
-__all__ = ["Figure", "Result", "Table", "Variable"]
+__all__ = ["Figure", "Result", "Table", "Variable", "load"]
 
 #: Pixels of a PNG per unit of the SVG, as the program writes it.
 SCALE = 2.0
@@ -61,7 +66,10 @@ class Table(Mapping[str, NDArray[Any]]):
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         """Return a column, of shape (rows,)."""
-        return self._columns[name]
+        try:
+            return self._columns[name]
+        except KeyError:
+            raise unknown("column", name, self) from None
 
     def __iter__(self) -> Iterator[str]:
         """Go through the names of the columns."""
@@ -85,26 +93,106 @@ class Table(Mapping[str, NDArray[Any]]):
         return f"<saltus.Table, {rows} rows: {', '.join(self)}>"
 
 
-class Figure:
-    """A figure, drawn when somebody looks at it."""
+class Drawing(Protocol):
+    """A figure as the native module draws it, or as it was drawn before."""
 
-    def __init__(self, name: str, native: _native.Figure) -> None:
+    def svg(self) -> str:
+        """As SVG."""
+
+    def png(self, scale: float) -> bytes:
+        """As PNG, with so many pixels per unit of the SVG."""
+
+
+class Drawn:
+    """A figure out of the files that it was written to."""
+
+    def __init__(self, svg: bytes, png: bytes) -> None:
+        self._svg, self._png = svg, png
+
+    def svg(self) -> str:
+        """As it was written."""
+        return self._svg.decode()
+
+    def png(self, scale: float) -> bytes:
+        """As it was written, which was with one scale."""
+        if scale != SCALE:
+            raise ValueError(
+                f"scale is {scale}: a figure that was loaded has its pixels already, at the scale "
+                f"{SCALE:g}; its svg has none, and plot() draws it anew"
+            )
+        return self._png
+
+
+class Figure:
+    """A figure, drawn when somebody looks at it.
+
+    Attributes
+    ----------
+    name : str
+        Name of its files without ending.
+    about : str
+        What it shows, for those who cannot see it.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+    >>> figure = saltus.simulate(study, periods=3).figures["portrait"]
+    >>> figure
+    <saltus.Figure portrait>
+    >>> figure.svg.startswith("<svg")
+    True
+    """
+
+    def __init__(self, name: str, drawing: Drawing, about: str = "") -> None:
         self.name = name
-        self._native = native
+        self.about = about
+        self._drawing = drawing
 
     @property
     def svg(self) -> str:
         """The figure as SVG."""
-        return self._native.svg()
+        return self._drawing.svg()
 
     def png(self, scale: float = SCALE) -> bytes:
-        """Return the figure as PNG, with `scale` pixels per unit of the SVG."""
+        """Return the figure as PNG.
+
+        Parameters
+        ----------
+        scale : float
+            Pixels per unit of the SVG, 0.1 to 20.
+
+        Returns
+        -------
+        bytes
+            Content of a PNG file.
+
+        Raises
+        ------
+        ValueError
+            If the scale is out of range, or another than 2 for a figure that was loaded.
+        """
         if not 0.1 <= scale <= 20.0:
             raise ValueError(f"scale is {scale}: 0.1 to 20 would do")
-        return self._native.png(scale)
+        return self._drawing.png(scale)
 
     def save(self, path: str | os.PathLike[str], scale: float = SCALE) -> None:
-        """Write the figure to a file that ends in ``.svg`` or ``.png``, whole or not at all."""
+        """Write the figure to a file, whole or not at all.
+
+        Parameters
+        ----------
+        path : path
+            A name that ends in ``.svg`` or ``.png``.
+        scale : float
+            Pixels of a PNG per unit of the SVG.
+
+        Raises
+        ------
+        ValueError
+            If the name has another ending.
+        ResultError
+            If the file cannot be written.
+        """
         path = Path(path)
         match path.suffix.lower():
             case ".svg":
@@ -121,8 +209,8 @@ class Figure:
         """Show it as large as its SVG, with the pixels of a fine screen."""
         png = self.png()
         width, height = (int.from_bytes(png[at : at + 4], "big") / SCALE for at in (16, 20))
-        size = {"width": round(width), "height": round(height)}
-        return {"text/plain": repr(self), "image/png": png}, {"image/png": size}
+        shown = {"width": round(width), "height": round(height), "alt": self.about or self.name}
+        return {"text/plain": repr(self), "image/png": png}, {"image/png": shown}
 
     def __repr__(self) -> str:
         """Return the name."""
@@ -171,7 +259,7 @@ class Result(Mapping[str, NDArray[Any]]):
     @cached_property
     def variables(self) -> Mapping[str, Variable]:
         """The arrays with their axes, units and meanings."""
-        return {variable.name: variable for variable in self._dataset[1]}
+        return Named("array", {variable.name: variable for variable in self._dataset[1]})
 
     @property
     def attrs(self) -> Mapping[str, Any]:
@@ -181,12 +269,21 @@ class Result(Mapping[str, NDArray[Any]]):
     @cached_property
     def tables(self) -> Mapping[str, Table]:
         """The tables, by the names of their files without ``.csv``."""
-        return {_stem(name): Table(*table) for name, table in self._parts[0].items()}
+        tables = {_stem(name): Table(*table) for name, table in self._parts[0].items()}
+        read = self._files(".csv")
+        return Named("table", tables | {name: Table(*_read_csv(text.decode())) for name, text in read})
 
     @cached_property
     def figures(self) -> Mapping[str, Figure]:
         """The figures, by the names of their files without ending."""
-        return {name: Figure(name, figure) for name, figure in self._parts[1].items()}
+        drawings: dict[str, Drawing] = dict(self._parts[1])
+        pixels = dict(self._files(".png"))
+        drawings |= {
+            name: Drawn(svg, pixels[name]) for name, svg in self._files(".svg") if name in pixels
+        }
+        about = f"{self.attrs.get('title', self.command)} ({self.command})"
+        figures = {name: Figure(name, one, f"{about}: {name}") for name, one in drawings.items()}
+        return Named("figure", figures)
 
     def words(self, name: str) -> NDArray[np.object_]:
         """Return an array whose whole numbers stand for words as these words."""
@@ -233,10 +330,7 @@ class Result(Mapping[str, NDArray[Any]]):
         """Return a table as a data frame; without a name the first."""
         if not self.tables:
             raise ValueError(f"{self.command} has no tables; its arrays are in to_xarray()")
-        name = next(iter(self.tables)) if table is None else table
-        if name not in self.tables:
-            raise KeyError(f"no table {name!r}; there are: {', '.join(self.tables)}")
-        return self.tables[name].to_pandas()
+        return self.tables[next(iter(self.tables)) if table is None else table].to_pandas()
 
     def save(self, out: str | os.PathLike[str]) -> Path:
         """Write the folder that the program writes: the same bytes, whole or not at all."""
@@ -244,9 +338,32 @@ class Result(Mapping[str, NDArray[Any]]):
         self._answer.save(out)
         return out
 
+    def __copy__(self) -> Result:
+        """Give a result with arrays of its own."""
+        return Result(self._answer)
+
+    def __deepcopy__(self, memo: object) -> Result:
+        """Give a result with arrays of its own."""
+        return Result(self._answer)
+
+    def __reduce__(self) -> tuple[Any, tuple[dict[str, bytes]]]:
+        """Pickle as the bytes of the folder that `save` writes."""
+        with tempfile.TemporaryDirectory() as folder:
+            saved = self.save(Path(folder) / "result")
+            files = [path for path in saved.rglob("*") if path.is_file()]
+            return _restored, (
+                {path.relative_to(saved).as_posix(): path.read_bytes() for path in files},
+            )
+
     @cached_property
     def _parts(self) -> _native._Parts:
         return self._answer.parts()
+
+    def _files(self, ending: str) -> Iterator[tuple[str, bytes]]:
+        """Files of a result that was read, by their names without this ending."""
+        for name, content in self._parts[3].items():
+            if name.endswith(ending):
+                yield name.removesuffix(ending), content
 
     @cached_property
     def _dataset(self) -> tuple[Mapping[str, Any], list[Variable]]:
@@ -268,6 +385,10 @@ class Result(Mapping[str, NDArray[Any]]):
     def __repr__(self) -> str:
         """Return the summary, and the arrays with their axes."""
         lines = [f"<saltus.Result of {self.command}>", self.summary, "Arrays:"]
+        return "\n".join([*lines, *self._told_arrays()])
+
+    def _told_arrays(self) -> Iterator[str]:
+        """A line for each array: name, axes, meaning and unit."""
         for variable in self.variables.values():
             axes = ", ".join(
                 f"{dim}: {length}"
@@ -276,17 +397,124 @@ class Result(Mapping[str, NDArray[Any]]):
             about = variable.attrs.get("long_name", "")
             units = variable.attrs.get("units", "")
             what = f"{about} ({units})" if units else about
-            lines.append(f"    {variable.name:<20} ({axes})  {what}")
-        return "\n".join(lines)
+            yield f"    {variable.name:<20} ({axes})  {what}"
 
-    def _repr_mimebundle_(
-        self, include: object = None, exclude: object = None
-    ) -> tuple[dict[str, Any], dict[str, Any]]:
-        text = {"text/plain": repr(self)}
+    def _repr_html_(self) -> str:
+        """Show the answer in words, then all figures, then the arrays."""
+        parts = [f"<pre>{html.escape(self.summary)}</pre>"]
         for figure in self.figures.values():
-            shown, size = figure._repr_mimebundle_()
-            return shown | text, size
-        return text, {}
+            png = base64.b64encode(figure.png()).decode()
+            alt = html.escape(figure.about, quote=True)
+            style = f"max-width: 100%; width: {_width(figure.png()):.0f}px"
+            parts.append(f'<img alt="{alt}" style="{style}" src="data:image/png;base64,{png}">')
+        arrays = html.escape("\n".join(self._told_arrays()))
+        parts.append(
+            f"<details><summary>Arrays of {self.command}</summary><pre>{arrays}</pre></details>"
+        )
+        return "\n".join(parts)
+
+
+def load(result: str | os.PathLike[str]) -> Result:
+    """Read a result from the folder that it was written to.
+
+    It is the same as the call gave: arrays, tables, figures and words, to the bit. Figures have the
+    pixels that they were written with.
+
+    Parameters
+    ----------
+    result : path
+        Folder that ``out`` or :meth:`Result.save` named, or ``--out`` of the program; or a file in it.
+
+    Returns
+    -------
+    Result
+
+    Raises
+    ------
+    ResultError
+        If there is no result, a file of it is missing or was altered, or another version wrote what
+        this one cannot read.
+    StudyError
+        If the folder holds a study alone.
+
+    Examples
+    --------
+    >>> import saltus, tempfile
+    >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+    >>> folder = tempfile.mkdtemp()
+    >>> first = saltus.simulate(study, periods=3, out=folder)
+    >>> again = saltus.load(folder)
+    >>> bool((again["z"] == first["z"]).all())
+    True
+    """
+    return Result(_native.read(Path(result)))
+
+
+def _restored(files: Mapping[str, bytes]) -> Result:
+    """Make the result of a pickle."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, content in files.items():
+            path = Path(folder) / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(content)
+        return load(folder)
+
+
+Item = TypeVar("Item")
+
+
+class Named(dict[str, Item]):
+    """Parts of a result by their names; a name that is not there is told with those that come near."""
+
+    def __init__(self, what: str, items: Mapping[str, Item]) -> None:
+        super().__init__(items)
+        self._what = what
+
+    def __missing__(self, name: object) -> Item:
+        """Raise the error of a name that is not there."""
+        raise unknown(self._what, name, self)
+
+
+def _read_csv(text: str) -> tuple[dict[str, str], dict[str, Any]]:
+    """Notes and columns of a table that saltus wrote."""
+    lines = text.splitlines(keepends=True)
+    begin = next(place for place, line in enumerate(lines) if not line.startswith("# "))
+    # the first line says what the table is
+    told = [line[2:].rstrip("\n").partition(": ") for line in lines[1:begin]]
+    notes = {title: note for title, _, note in told}
+    header, *rows = csv.reader(lines[begin:])
+    columns = zip(*rows, strict=True) if rows else [()] * len(header)
+    return notes, {
+        title: _cells(cells, notes[title]) for title, cells in zip(header, columns, strict=True)
+    }
+
+
+def _cells(cells: Iterable[str], note: str) -> Any:
+    """The cells of a column in the type that they were written from.
+
+    Numbers have a point or an exponent, whole ones neither; an empty cell is a number that is not known
+    or no text. Of a column that is empty all through its unit tells which.
+    """
+    cells = list(cells)
+    known = [cell for cell in cells if cell]
+    if not known:
+        return np.full(len(cells), np.nan) if note.endswith(")") else [None] * len(cells)
+    if set(known) <= {"true", "false"}:
+        return [cell == "true" for cell in cells]
+    for number in (int, float):
+        try:
+            numbers = [number(cell) for cell in known]
+        except ValueError:
+            continue
+        if len(known) == len(cells):
+            return np.array(numbers, np.int64 if number is int else np.float64)
+        return np.array([float(cell) if cell else np.nan for cell in cells])
+    return [cell or None for cell in cells]
+
+
+def _width(png: bytes) -> float:
+    """Width at which a PNG is shown, that of its SVG."""
+    return int.from_bytes(png[16:20], "big") / SCALE
 
 
 def _stem(name: str) -> str:

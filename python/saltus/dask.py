@@ -28,7 +28,8 @@ if TYPE_CHECKING:
 
     from distributed import Client, Future
 
-__all__ = ["basins", "map", "sweep"]
+# `map` is left out: it would take the place of Python's own where all names are imported
+__all__ = ["basins", "sweep"]
 
 #: Tasks per thread of the cluster, about: enough to even out costs, few enough for the scheduler.
 TASKS_PER_THREAD = 8

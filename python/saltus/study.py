@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import html
 import json
 import math
 import os
@@ -133,13 +134,38 @@ class Study:
         return _native.describe(self._resolved[0])[0].rstrip()
 
     def __repr__(self) -> str:
-        """Return the tables that are there."""
-        asked = [field.name for field in dataclasses.fields(self) if getattr(self, field.name)]
-        return f"<saltus.Study {self.hash[:12]}: {', '.join(asked)}>"
+        """Return the description, below the beginning of the hash."""
+        return f"<saltus.Study {self.hash[:12]}>\n{self}"
+
+    def _repr_html_(self) -> str:
+        """Show the description, and the study file when it is opened."""
+        file = (
+            f"<details><summary>Study file</summary><pre>{html.escape(self.to_toml())}</pre></details>"
+        )
+        return f"<pre>{html.escape(str(self))}</pre>\n{file}"
 
     def __reduce__(self) -> tuple[Any, tuple[str]]:
         """Pickle as the text of the study file, which gives the same bits."""
         return Study.parse, (self.to_toml(),)
+
+    def _with(self, table: str, given: Mapping[str, object]) -> Study:
+        """The study with those of `given` that are keys of one table and not None."""
+        changes: dict[str, Any] = {}
+        tree = json.loads(self._resolved[0])
+        own = tree.get(table, {})
+        for field in dataclasses.fields(TABLES[table]):
+            key, value = field.name.rstrip("_"), given.get(field.name)
+            if value is None:
+                continue
+            name = f"{table}.{key}"
+            if name in TABLES and not dataclasses.is_dataclass(value):
+                # of an axis, its values alone
+                changes[key] = _merged(own.get(key, {}), {"values": _plain(name, value)})
+            else:
+                changes[key] = _plain(name, value)
+        if not changes:
+            return self
+        return _of(_native.resolve(json.dumps(tree | {table: _merged(own, changes)}), []))
 
     # set in __post_init__; JSON, TOML and hash of the resolved study
     @property
@@ -152,8 +178,27 @@ class Study:
         for field in dataclasses.fields(self):
             table = field.name.rstrip("_")
             value = _built(table, tree.get(table))
-            object.__setattr__(self, field.name, () if value is None and table == "jumper" else value)
+            object.__setattr__(self, field.name, Jumpers(value or ()) if table == "jumper" else value)
         self.__dict__["resolved"] = resolved
+
+
+class Jumpers(tuple[Jumper, ...]):
+    """The people of a study, counted from 0."""
+
+    __slots__ = ()
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            """Say that a key is that of one person."""
+            if not any(field.name == name for field in dataclasses.fields(Jumper)):
+                raise AttributeError(f"the people of a study have no {name}")
+            if not self:
+                raise AttributeError(f"there is no jumper, so there is no {name}")
+            raise AttributeError(
+                f"jumper is a list of {len(self)}: jumper[0].{name} is that of the first; "
+                f'set({{"jumper.{name}": ...}}) changes that of everyone'
+            )
 
 
 StudyLike = Study | str | os.PathLike[str]
@@ -186,6 +231,22 @@ def _built(name: str, value: Any) -> Any:
     if isinstance(value, list):
         return tuple(_built(name, item) for item in value)
     return value
+
+
+def _merged(own: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """A table with other keys.
+
+    Values that are given in one way replace those given in the other; another parameter replaces both.
+    """
+    even = ("from", "to", "count")
+    dropped: set[str] = set()
+    if "values" in changes:
+        dropped |= set(even)
+    elif any(key in changes for key in even):
+        dropped.add("values")
+    if changes.get("parameter", own.get("parameter")) != own.get("parameter"):
+        dropped |= {*even, "values"}
+    return {key: value for key, value in own.items() if key not in dropped} | dict(changes)
 
 
 def _json(study: Study) -> str:
