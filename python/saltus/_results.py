@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +24,10 @@ from saltus.study import Study
 if TYPE_CHECKING:
     import pandas
     import xarray
+    from matplotlib.animation import FuncAnimation
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from numpy.typing import ArrayLike
 
 __all__ = ["Figure", "Result", "Table", "Variable", "load"]
 
@@ -332,8 +336,189 @@ class Result(Mapping[str, NDArray[Any]]):
             raise ValueError(f"{self.command} has no tables; its arrays are in to_xarray()")
         return self.tables[next(iter(self.tables)) if table is None else table].to_pandas()
 
+    def plot(
+        self, ax: Axes | None = None, what: str | None = None, *, jumper: int = 0, **kwargs: Any
+    ) -> list[Artist]:
+        """Draw the answer in axes of matplotlib.
+
+        ========== =====================================================================
+        command    `what`, the first by default
+        ========== =====================================================================
+        simulate   "portrait" (phase portrait), "history" (heights), "force" (of the
+                   feet), "acceleration" (of the floor)
+        orbit      "multipliers" (Floquet), and all those of simulate
+        sweep      "bifurcation", "exponents"
+        map        "map" (periods and kinds), or an array over the plane by its name
+        basins     "basins", "map", or an array over the plane by its name
+        continue   "branches", "curves"
+        lyapunov   "exponents", "convergence"
+        attractors "attractors" (their sections), "shares" (of the first states)
+        ========== =====================================================================
+
+        A period has the same colour in all plots.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; by default a new figure.
+        what : str, optional
+            Which plot.
+        jumper : int
+            Whose motion, counted from 0.
+        **kwargs
+            For the points, lines or cells, such as ``markersize=1`` or ``cmap="magma"``. For
+            "bifurcation" also ``direction="up"``, which leaves out the others.
+
+        Returns
+        -------
+        list of matplotlib.artist.Artist
+            Points, lines or cells, one or several for each entry of the legend.
+
+        Raises
+        ------
+        ImportError
+            If there is no matplotlib: ``pip install 'saltus[plot]'``.
+        UnknownNameError
+            If there is no such plot; the message tells those there are.
+        ValueError
+            If there is nothing to plot, as of frequencies.
+
+        Examples
+        --------
+        >>> import matplotlib
+        >>> matplotlib.use("agg")
+        >>> import saltus
+        >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+        >>> result = saltus.sweep(study, values=[0.3, 0.4, 0.5], transient=100, record=4)
+        >>> [line.get_label() for line in result.plot()]
+        ['Period 1', 'Period 2']
+        """
+        from saltus._plot import plot
+
+        return plot(self, ax, what, jumper, kwargs)
+
+    def surface(
+        self,
+        x: ArrayLike | None = None,
+        y: ArrayLike | None = None,
+        t: ArrayLike | None = None,
+        *,
+        absolute: bool = False,
+    ) -> NDArray[np.float64]:
+        """Give the deflection of the plate w(x, y, t) (m) of simulate or orbit.
+
+        Parameters
+        ----------
+        x, y : array_like, shapes (nx,) and (ny,), optional
+            Positions along length and width (m); by default 57 each over the whole plate.
+        t : array_like, optional
+            Times (s) of the history, any number of axes; by default all of them.
+        absolute : bool
+            Height with the motion of the base; by default the deflection relative to it.
+
+        Returns
+        -------
+        ndarray of float, shape (*shape of t, ny, nx)
+            Sum of the plate's terms with the amplitudes ``history_w``, which are those of the
+            integrator's own solution: nothing is interpolated.
+
+        Raises
+        ------
+        ValueError
+            If a place is beside the plate, a time is none of the history, or the result has no history.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+        >>> motion = saltus.simulate(study, periods=1, times=[0.0, 0.1, 0.2])
+        >>> motion.surface([3.5, 7.0, 10.5], [5.0], t=0.1).shape
+        (1, 3)
+        >>> motion.surface().shape
+        (3, 57, 57)
+        """
+        from saltus._motion import surface
+
+        return surface(self, x, y, t, absolute)
+
+    def animate(
+        self,
+        view: Literal["section", "surface"] = "section",
+        *,
+        jumper: int = 0,
+        periods: int = 2,
+        frames: int = 120,
+        slower: float = 4.0,
+    ) -> FuncAnimation:
+        """Make a film of plate, base and people, from the history of simulate or orbit.
+
+        In a notebook ``IPython.display.HTML(film.to_jshtml())`` shows it, elsewhere
+        ``film.save("jump.gif")`` keeps it. Keep a reference to it as long as it plays.
+
+        Parameters
+        ----------
+        view : {"section", "surface"}
+            Section of the plate along its length through one person, or all of it in space.
+        jumper : int
+            The person that the section goes through, counted from 0.
+        periods : int
+            Forcing periods, the last ones of the history.
+        frames : int
+            Pictures at most: as many as the history has times.
+        slower : float
+            Times that it takes longer than the motion itself.
+
+        Returns
+        -------
+        matplotlib.animation.FuncAnimation
+            Legs are drawn 0.25 m long without load: those of the model have no length of their own.
+
+        Raises
+        ------
+        ImportError
+            If there is no matplotlib: ``pip install 'saltus[plot]'``.
+        ValueError
+            If the result has no history, or an argument is out of range.
+
+        Examples
+        --------
+        >>> import matplotlib
+        >>> matplotlib.use("agg")
+        >>> import saltus
+        >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+        >>> film = saltus.simulate(study, periods=50).animate(frames=30)
+        >>> film.save("jump.gif")  # doctest: +SKIP
+        >>> film.pause()
+        """
+        from saltus._motion import animate
+
+        return animate(self, view, jumper, periods, frames, slower)
+
     def save(self, out: str | os.PathLike[str]) -> Path:
-        """Write the folder that the program writes: the same bytes, whole or not at all."""
+        """Write the folder that the program writes: the same bytes, whole or not at all.
+
+        Parameters
+        ----------
+        out : path
+            The folder, which may be absent, empty, or an earlier result.
+
+        Returns
+        -------
+        Path
+            The folder, for :func:`saltus.load` and :func:`saltus.rerun`.
+
+        Raises
+        ------
+        ResultError
+            If the folder holds files of others, or cannot be written.
+
+        Examples
+        --------
+        >>> import saltus, tempfile
+        >>> saved = saltus.frequencies(saltus.Study.paper()).save(tempfile.mkdtemp())
+        >>> sorted(path.name for path in saved.iterdir())
+        ['frequencies.json', 'frequencies.nc', 'saltus-result.json', 'study.toml']
+        """
         out = Path(out)
         self._answer.save(out)
         return out

@@ -333,8 +333,7 @@ impl Variable {
     #[must_use]
     pub fn words(mut self, words: &'static [&'static str]) -> Self {
         self.words = words;
-        let meanings = (0..).zip(words.iter().map(|word| word.replace('-', "_")));
-        self.flags(meanings)
+        self.flags((0..).zip(words.iter().copied()))
     }
 
     /// The whole number that stands for no value in tables and documents, such as the period 0. Files of arrays keep it
