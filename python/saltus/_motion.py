@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from saltus._arguments import reals, whole
-from saltus._plot import pyplot, typeset
+from saltus._plot import NO_HISTORY, pyplot, typeset
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -147,7 +147,7 @@ def _needed(result: Result, what: str) -> None:
             f"{what} is of simulate and orbit, which have a history; {result.command} has none"
         )
     if len(result["history_time"]) == 0:
-        raise ValueError("the history has no times: the run ended before it")
+        raise ValueError(NO_HISTORY)
 
 
 def _sides(result: Result) -> tuple[float, float]:

@@ -50,6 +50,10 @@ ATTRACTORS = (
     *("#fa9daa", "#005a66", "#b3d900", "#9e83ff", "#82774c", "#f545a9"),
 )
 
+#: Plots of a history, and the refusal where that is empty.
+_HISTORIES = ("portrait", "history", "force", "acceleration")
+NO_HISTORY = "the history has no times: the run ended before it"
+
 #: Axes, the answer, the jumper, and keywords for the artists.
 Drawer: TypeAlias = "Callable[[Axes, Result, int, dict[str, Any]], list[Artist]]"
 
@@ -88,6 +92,8 @@ def plot(
         ax = pyplot().subplots(layout="constrained")[1]
     if "jumper" in result and not 0 <= jumper < len(result["jumper"]):
         raise ValueError(f"jumper is {jumper}: 0 to {len(result['jumper']) - 1} would do")
+    if name in _HISTORIES and len(result["history_time"]) == 0:
+        raise ValueError(NO_HISTORY)
     # numbers that are names have no scale
     name = {"period": "map", "status": "map", "attractor": "basins"}.get(name, name)
     if name in known:
