@@ -775,7 +775,7 @@ def attractors(
     --------
     >>> import saltus
     >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
-    >>> result = saltus.attractors(study, starts=8, values=[0.46, 0.47])
+    >>> result = saltus.attractors(study, starts=4, values=[0.47, 0.5])
     >>> result["share"]
     array([[1.],
            [1.]])

@@ -37,7 +37,16 @@ SCALE = 2.0
 
 @dataclass(frozen=True, eq=False)
 class Variable:
-    """An array with the names of its axes and its meaning."""
+    """An array with the names of its axes and its meaning.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+    >>> z = saltus.simulate(study, periods=2).variables["z"]
+    >>> z.dims, z.values.shape, z.attrs["long_name"]
+    (('period', 'jumper'), (2, 1), 'Height over eta = g/omega_h^2')
+    """
 
     name: str
     dims: tuple[str, ...]
@@ -61,11 +70,26 @@ class Variable:
 
 
 class Table(Mapping[str, NDArray[Any]]):
-    """Columns of equal length, as in the CSV file of the same name."""
+    """Columns of equal length, as in the CSV file of the same name.
+
+    Attributes
+    ----------
+    notes : dict of str to str
+        Meanings of the columns, with units.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+    >>> table = saltus.simulate(study, periods=2).tables["section"]
+    >>> list(table)[:3]
+    ['period', 'time_s', 'z']
+    >>> table.notes["z"]
+    'Height over eta = g/omega_h^2 (-)'
+    """
 
     def __init__(self, notes: Mapping[str, str], columns: Mapping[str, Any]) -> None:
         self.notes = dict(notes)
-        """Meanings of the columns, with units."""
         self._columns = {name: _column(values) for name, values in columns.items()}
 
     def __getitem__(self, name: str) -> NDArray[Any]:
@@ -84,7 +108,26 @@ class Table(Mapping[str, NDArray[Any]]):
         return len(self._columns)
 
     def to_pandas(self) -> pandas.DataFrame:
-        """Return the table as a data frame; its ``attrs`` are the notes."""
+        """Return the table as a data frame.
+
+        Returns
+        -------
+        pandas.DataFrame
+            With the notes on the columns as its ``attrs``.
+
+        Raises
+        ------
+        ImportError
+            If there is no pandas: ``pip install 'saltus[all]'``.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+        >>> motion = saltus.simulate(study, periods=2)
+        >>> len(motion.tables["section"].to_pandas())
+        2
+        """
         import pandas
 
         frame = pandas.DataFrame(self._columns)
@@ -175,6 +218,14 @@ class Figure:
         ------
         ValueError
             If the scale is out of range, or another than 2 for a figure that was loaded.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+        >>> figure = saltus.simulate(study, periods=3).figures["portrait"]
+        >>> figure.png(scale=0.5)[1:4]
+        b'PNG'
         """
         if not 0.1 <= scale <= 20.0:
             raise ValueError(f"scale is {scale}: 0.1 to 20 would do")
@@ -196,6 +247,14 @@ class Figure:
             If the name has another ending.
         ResultError
             If the file cannot be written.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> import saltus
+        >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+        >>> figure = saltus.simulate(study, periods=3).figures["portrait"]
+        >>> figure.save(f"{tempfile.mkdtemp()}/portrait.svg")
         """
         path = Path(path)
         match path.suffix.lower():
@@ -225,7 +284,8 @@ class Result(Mapping[str, NDArray[Any]]):
     """Answer of a question.
 
     As a mapping it holds the arrays by name: ``result["z"]``, with the axes and units that
-    ``result.variables["z"]`` tells. In a notebook it shows its summary and its first figure.
+    ``result.variables["z"]`` tells; `repr` lists them all. In a notebook it shows its summary and its
+    figures. It can be pickled, which takes as long as :meth:`save`, and copied.
 
     Attributes
     ----------
@@ -233,6 +293,18 @@ class Result(Mapping[str, NDArray[Any]]):
         The command that was asked.
     study : Study
         The study it was asked about, every default written out.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+    >>> motion = saltus.simulate(study, periods=50)
+    >>> motion["z"].shape, motion.variables["z"].dims
+    ((50, 1), ('period', 'jumper'))
+    >>> motion.summary.splitlines()[0]
+    'status      completed'
+    >>> sorted(motion.tables), sorted(motion.figures)
+    (['energy', 'history', 'section', 'switches'], ['history', 'portrait'])
     """
 
     def __init__(self, answer: _native.Answer) -> None:
@@ -252,7 +324,19 @@ class Result(Mapping[str, NDArray[Any]]):
         return report
 
     def cite(self) -> str:
-        """Return the works that this result rests on as BibTeX, each below what it was used for."""
+        """Give the works that this result rests on.
+
+        Returns
+        -------
+        str
+            BibTeX, each entry below what the work was used for.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> saltus.frequencies(saltus.Study.paper()).cite().count("@") > 1
+        True
+        """
         return self._answer.cite()
 
     @property
@@ -290,7 +374,30 @@ class Result(Mapping[str, NDArray[Any]]):
         return Named("figure", figures)
 
     def words(self, name: str) -> NDArray[np.object_]:
-        """Return an array whose whole numbers stand for words as these words."""
+        """Give an array whose whole numbers stand for words as these words.
+
+        Parameters
+        ----------
+        name : str
+            The array, such as "label" of a sweep, "status" of a map, "phase" of a motion.
+
+        Returns
+        -------
+        ndarray of str, dtype object
+            Of the shape of the array.
+
+        Raises
+        ------
+        UnknownNameError
+            If there is no such array.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+        >>> saltus.simulate(study, periods=2).words("phase").ravel().tolist()
+        ['contact', 'contact']
+        """
         return self.variables[name].words
 
     def __getitem__(self, name: str) -> NDArray[Any]:
@@ -306,7 +413,27 @@ class Result(Mapping[str, NDArray[Any]]):
         return len(self.variables)
 
     def to_xarray(self) -> xarray.Dataset:
-        """Return the dataset that the program writes as NetCDF, with all its attributes."""
+        """Give all arrays with their axes, units and meanings.
+
+        Returns
+        -------
+        xarray.Dataset
+            The one that the program writes as NetCDF, with all its attributes.
+
+        Raises
+        ------
+        ImportError
+            If there is no xarray: ``pip install 'saltus[xarray]'``.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+        >>> data = saltus.sweep(study, values=[0.3, 0.5], transient=50, record=4).to_xarray()
+        >>> data.z.sel(direction="up", jumper=0).dims
+        ('jumper_damping_ratio', 'sample')
+        >>> heights = data.z * data.eta
+        """
         import xarray
 
         def array(variable: Variable) -> xarray.Variable:
@@ -331,7 +458,36 @@ class Result(Mapping[str, NDArray[Any]]):
         ).set_coords(more)
 
     def to_pandas(self, table: str | None = None) -> pandas.DataFrame:
-        """Return a table as a data frame; without a name the first."""
+        """Give a table as a data frame.
+
+        Parameters
+        ----------
+        table : str, optional
+            Its name in ``tables``; by default the first.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ValueError
+            If there are no tables.
+        UnknownNameError
+            If there is no such table.
+        ImportError
+            If there is no pandas: ``pip install 'saltus[all]'``.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+        >>> result = saltus.sweep(study, values=[0.3, 0.5], transient=100, record=4)
+        >>> result.to_pandas("rows")[["direction", "value", "label", "period"]].head(2)
+          direction  value     label  period
+        0        up    0.3  periodic       2
+        1        up    0.5  periodic       1
+        """
         if not self.tables:
             raise ValueError(f"{self.command} has no tables; its arrays are in to_xarray()")
         return self.tables[next(iter(self.tables)) if table is None else table].to_pandas()
@@ -486,9 +642,9 @@ class Result(Mapping[str, NDArray[Any]]):
         >>> matplotlib.use("agg")
         >>> import saltus
         >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
-        >>> film = saltus.simulate(study, periods=50).animate(frames=30)
-        >>> film.save("jump.gif")  # doctest: +SKIP
-        >>> film.pause()
+        >>> film = saltus.simulate(study, periods=12).animate(frames=3)
+        >>> "<script" in film.to_jshtml()
+        True
         """
         from saltus._motion import animate
 

@@ -83,17 +83,77 @@ class Study:
 
     @classmethod
     def paper(cls) -> Study:
-        """Return the case of Dias & Del Prado, section 3."""
+        """Give the case of Dias & Del Prado, section 3.
+
+        Returns
+        -------
+        Study
+
+        Examples
+        --------
+        >>> import saltus
+        >>> saltus.Study.paper().plate.length
+        14.0
+        """
         return _of(_native.paper())
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], changes: Mapping[str, object] | None = None) -> Study:
-        """Read a study file, with changes as in :meth:`set`."""
+        """Read a study file.
+
+        Parameters
+        ----------
+        path : path
+            The file, in TOML.
+        changes : mapping, optional
+            As in :meth:`set`.
+
+        Returns
+        -------
+        Study
+
+        Raises
+        ------
+        StudyError
+            If the file is no study; the message has the line.
+
+        Examples
+        --------
+        >>> import saltus, tempfile
+        >>> path = f"{tempfile.mkdtemp()}/study.toml"
+        >>> saltus.Study.paper().save(path)
+        >>> saltus.Study.load(path, {"jumper.mass": 80.0}).jumper[0].mass
+        80.0
+        """
         return _of(_native.load(Path(path), _overrides(changes)))
 
     @classmethod
     def parse(cls, text: str, changes: Mapping[str, object] | None = None) -> Study:
-        """Read the text of a study file (TOML), with changes as in :meth:`set`."""
+        """Read the text of a study file.
+
+        Parameters
+        ----------
+        text : str
+            TOML.
+        changes : mapping, optional
+            As in :meth:`set`.
+
+        Returns
+        -------
+        Study
+
+        Raises
+        ------
+        StudyError
+            If the text is no study; the message has the line.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> study = saltus.Study.paper()
+        >>> saltus.Study.parse(study.to_toml()) == study
+        True
+        """
         return _of(_native.parse("text", text, _overrides(changes)))
 
     def set(self, changes: Mapping[str, object]) -> Study:
@@ -104,19 +164,87 @@ class Study:
         changes : mapping
             Keys as in the study file with a dot between table and key: ``"plate.inertia"``,
             ``"jumper.damping_ratio"`` for everyone, ``"jumper.0.mass"`` for one person.
+
+        Returns
+        -------
+        Study
+            A new one; this one stays as it is.
+
+        Raises
+        ------
+        StudyError
+            If there is no such key or its value cannot be.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> study = saltus.Study.paper().set({"jumper.mass": 80.0, "plate.inertia": "condensed"})
+        >>> study.jumper[0].mass, study.plate.inertia
+        (80.0, 'condensed')
         """
         return _of(_native.resolve(self._resolved[0], _overrides(changes)))
 
     def replace(self, **tables: Any) -> Study:
-        """Return the study with whole tables in place of its own, such as ``sweep=Sweep(...)``."""
+        """Return the study with whole tables in place of its own.
+
+        Parameters
+        ----------
+        **tables
+            Tables by their names, such as ``sweep=Sweep(...)``; None takes one away.
+
+        Returns
+        -------
+        Study
+            A new one; this one stays as it is.
+
+        Raises
+        ------
+        StudyError
+            If the tables do not make a study.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> sweep = saltus.Sweep(parameter="jumper.mass", from_=60.0, to=90.0, count=31)
+        >>> saltus.Study.paper().replace(sweep=sweep, map=None).sweep.count
+        31
+        """
         return dataclasses.replace(self, **tables)
 
     def to_toml(self) -> str:
-        """Return the study as the text of a study file, every default written out."""
+        """Return the study as the text of a study file.
+
+        Returns
+        -------
+        str
+            TOML, every default written out.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> saltus.Study.paper().to_toml().startswith("format = 1")
+        True
+        """
         return self._resolved[1]
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the study file that the program reads, whole or not at all."""
+        """Write the study file that the program reads, whole or not at all.
+
+        Parameters
+        ----------
+        path : path
+            The file.
+
+        Raises
+        ------
+        ResultError
+            If it cannot be written.
+
+        Examples
+        --------
+        >>> import saltus, tempfile
+        >>> saltus.Study.paper().save(f"{tempfile.mkdtemp()}/study.toml")
+        """
         _native.write(Path(path), self.to_toml().encode())
 
     @property
