@@ -118,7 +118,7 @@ class Table(Mapping[str, NDArray[Any]]):
         Raises
         ------
         ImportError
-            If there is no pandas: ``pip install 'saltus[all]'``.
+            If there is no pandas: ``pip install 'saltus[xarray]'``.
 
         Examples
         --------
@@ -271,8 +271,8 @@ class Figure:
     ) -> tuple[dict[str, Any], dict[str, Any]]:
         """Show it as large as its SVG, with the pixels of a fine screen."""
         png = self.png()
-        width, height = (int.from_bytes(png[at : at + 4], "big") / SCALE for at in (16, 20))
-        shown = {"width": round(width), "height": round(height), "alt": self.about or self.name}
+        width, height = _size(png)
+        shown = {"width": width, "height": height, "alt": self.about or self.name}
         return {"text/plain": repr(self), "image/png": png}, {"image/png": shown}
 
     def __repr__(self) -> str:
@@ -476,7 +476,7 @@ class Result(Mapping[str, NDArray[Any]]):
         UnknownNameError
             If there is no such table.
         ImportError
-            If there is no pandas: ``pip install 'saltus[all]'``.
+            If there is no pandas: ``pip install 'saltus[xarray]'``.
 
         Examples
         --------
@@ -744,10 +744,10 @@ class Result(Mapping[str, NDArray[Any]]):
         """Show the answer in words, then all figures, then the arrays."""
         parts = [f"<pre>{html.escape(self.summary)}</pre>"]
         for figure in self.figures.values():
-            png = base64.b64encode(figure.png()).decode()
-            alt = html.escape(figure.about, quote=True)
-            style = f"max-width: 100%; width: {_width(figure.png()):.0f}px"
-            parts.append(f'<img alt="{alt}" style="{style}" src="data:image/png;base64,{png}">')
+            png = figure.png()
+            source = f"data:image/png;base64,{base64.b64encode(png).decode()}"
+            style = f"max-width: 100%; width: {_size(png)[0]}px"
+            parts.append(f'<img alt="{html.escape(figure.about)}" style="{style}" src="{source}">')
         arrays = html.escape("\n".join(self._told_arrays()))
         parts.append(
             f"<details><summary>Arrays of {self.command}</summary><pre>{arrays}</pre></details>"
@@ -853,9 +853,10 @@ def _cells(cells: Iterable[str], note: str) -> Any:
     return [cell or None for cell in cells]
 
 
-def _width(png: bytes) -> float:
-    """Width at which a PNG is shown, that of its SVG."""
-    return int.from_bytes(png[16:20], "big") / SCALE
+def _size(png: bytes) -> tuple[int, int]:
+    """Width and height at which a PNG is shown, those of its SVG."""
+    width, height = (int.from_bytes(png[at : at + 4], "big") for at in (16, 20))
+    return round(width / SCALE), round(height / SCALE)
 
 
 def _stem(name: str) -> str:
