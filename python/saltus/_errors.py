@@ -83,7 +83,7 @@ def unknown(what: str, name: object, known: Iterable[str]) -> UnknownNameError:
     """Give the error of a name that is none of `known`."""
     names = list(known)
     # a part of a name comes nearer than letters that are alike
-    near = [one for one in names if isinstance(name, str) and name and name in one][:5]
+    near = [one for one in names if isinstance(name, str) and len(name) > 2 and name in one][:5]
     near = near or difflib.get_close_matches(str(name), names, 5, 0.5)
     told = f"did you mean {' or '.join(map(repr, near))}?" if near else f"there are: {', '.join(names)}"
     return UnknownNameError(f"no {what} {name!r}; {told}")
