@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
+from saltus import _native
 from saltus._errors import unknown
 
 if TYPE_CHECKING:
@@ -23,33 +24,8 @@ if TYPE_CHECKING:
 
 __all__ = ["plot", "pyplot", "typeset"]
 
-#: One colour for one period; doublings are further apart than others.
-PERIODS = {
-    1: "#0072b2",
-    2: "#d55e00",
-    4: "#009e73",
-    8: "#cc79a7",
-    3: "#e69f00",
-    5: "#56b4e9",
-    6: "#7b3f00",
-}
-#: Further periods take turns.
-RARE = ("#0d2f66", "#008080", "#be3c5a", "#5a961e", "#f08cb4", "#82774c")
-#: Motions without a period, and cells where none was found.
-KINDS = {
-    "chaotic": "#181818",
-    "quasi-periodic": "#6a5acd",
-    "not-periodic": "#181818",
-    "undecided": "#969696",
-}
-FAILED = "#de1e46"
 #: Things that only a number tells apart.
 CYCLE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
-ATTRACTORS = (
-    *("#3543ff", "#30b602", "#902605", "#47ceff", "#b000b0", "#000000"),
-    *("#fa9daa", "#005a66", "#b3d900", "#9e83ff", "#82774c", "#f545a9"),
-)
-
 #: Plots of a history, and the refusal where that is empty.
 _HISTORIES = ("portrait", "history", "force", "acceleration")
 NO_HISTORY = "the history has no times: the run ended before it"
@@ -139,9 +115,8 @@ _VELOCITY = r"Velocity $\dot z/(\eta\,\omega_h)$"
 
 def _class(kind: str, period: int) -> tuple[str, str]:
     """Name and colour of a kind of motion."""
-    if period > 0:
-        return f"Period {period}", PERIODS.get(period, RARE[period % len(RARE)])
-    return kind.capitalize(), KINDS.get(kind, FAILED)
+    name = f"Period {period}" if period > 0 else kind.capitalize()
+    return name, _native.colour(kind, period)
 
 
 def _classes(kinds: NDArray[Any], periods: NDArray[Any]) -> list[tuple[str, str, NDArray[np.bool_]]]:
@@ -436,7 +411,8 @@ def _shares(ax: Axes, result: Result, jumper: int, kwargs: dict[str, Any]) -> li
 
 
 def _of_attractor(number: int) -> str:
-    return ATTRACTORS[(int(number) - 1) % len(ATTRACTORS)]
+    palette = _native.palette()
+    return palette[(int(number) - 1) % len(palette)]
 
 
 def _along(result: Result, prefix: str) -> str | None:
@@ -490,15 +466,17 @@ def _map(ax: Axes, result: Result, jumper: int, kwargs: dict[str, Any]) -> list[
 
 def _basins(ax: Axes, result: Result, jumper: int, kwargs: dict[str, Any]) -> list[Artist]:
     numbers = result["attractor"]
-    classes = [("No attractor", KINDS["undecided"], numbers == 0)] if (numbers == 0).any() else []
-    kinds, periods = result.words("attractor_kind"), result["attractor_period"]
-    for place, number in enumerate(result["attractor_number"]):
-        name, _ = _class(str(kinds[place]), int(periods[place]))
-        matched = int(result["attractor_matched"][place]) or int(number)
-        share = f"{100 * result['attractor_share'][place]:.1f} %"
-        classes.append(
-            (f"{matched}: {name.lower()}, {share}", _of_attractor(matched), numbers == number)
-        )
+    kinds = [str(kind) for kind in result.words("attractor_kind")]
+    motions = list(zip(kinds, result["attractor_period"].tolist(), strict=True))
+    classes = []
+    for place, colour in enumerate(_native.colours(motions)):
+        # one that was met along the sweep of attractors has the number and the colour that it has there
+        matched = int(result["attractor_matched"][place])
+        name = _class(*motions[place])[0].lower()
+        label = f"{matched or place + 1}: {name}, {100 * result['attractor_share'][place]:.1f} %"
+        classes.append((label, _of_attractor(matched) if matched else colour, numbers == place + 1))
+    if (numbers == 0).any():
+        classes.append(("No attractor", _native.colour("undecided", 0), numbers == 0))
     return _cells(ax, result, classes, kwargs)
 
 

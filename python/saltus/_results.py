@@ -146,6 +146,9 @@ class Drawing(Protocol):
     def svg(self) -> str:
         """As SVG."""
 
+    def pdf(self) -> bytes:
+        """As PDF."""
+
     def png(self, scale: float) -> bytes:
         """As PNG, with so many pixels per unit of the SVG."""
 
@@ -153,12 +156,16 @@ class Drawing(Protocol):
 class Drawn:
     """A figure out of the files that it was written to."""
 
-    def __init__(self, svg: bytes, png: bytes) -> None:
-        self._svg, self._png = svg, png
+    def __init__(self, svg: bytes, pdf: bytes, png: bytes) -> None:
+        self._svg, self._pdf, self._png = svg, pdf, png
 
     def svg(self) -> str:
         """As it was written."""
         return self._svg.decode()
+
+    def pdf(self) -> bytes:
+        """As it was written."""
+        return self._pdf
 
     def png(self, scale: float) -> bytes:
         """As it was written, which was with one scale."""
@@ -201,6 +208,11 @@ class Figure:
         """The figure as SVG."""
         return self._drawing.svg()
 
+    @property
+    def pdf(self) -> bytes:
+        """The figure as PDF."""
+        return self._drawing.pdf()
+
     def png(self, scale: float = SCALE) -> bytes:
         """Return the figure as PNG.
 
@@ -237,7 +249,7 @@ class Figure:
         Parameters
         ----------
         path : path
-            A name that ends in ``.svg`` or ``.png``.
+            A name that ends in ``.svg``, ``.pdf`` or ``.png``.
         scale : float
             Pixels of a PNG per unit of the SVG.
 
@@ -260,10 +272,12 @@ class Figure:
         match path.suffix.lower():
             case ".svg":
                 content = self.svg.encode()
+            case ".pdf":
+                content = self.pdf
             case ".png":
                 content = self.png(scale)
             case other:
-                raise ValueError(f"path ends in {other!r}: .svg or .png is needed")
+                raise ValueError(f"path ends in {other!r}: .svg, .pdf or .png is needed")
         _native.write(path, content)
 
     def _repr_mimebundle_(
@@ -365,10 +379,9 @@ class Result(Mapping[str, NDArray[Any]]):
     def figures(self) -> Mapping[str, Figure]:
         """The figures, by the names of their files without ending."""
         drawings: dict[str, Drawing] = dict(self._parts[1])
-        pixels = dict(self._files(".png"))
-        drawings |= {
-            name: Drawn(svg, pixels[name]) for name, svg in self._files(".svg") if name in pixels
-        }
+        pages, pixels = dict(self._files(".pdf")), dict(self._files(".png"))
+        for name, svg in self._files(".svg"):
+            drawings[name] = Drawn(svg, pages[name], pixels[name])
         about = f"{self.attrs.get('title', self.command)} ({self.command})"
         figures = {name: Figure(name, one, f"{about}: {name}") for name, one in drawings.items()}
         return Named("figure", figures)

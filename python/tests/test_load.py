@@ -70,8 +70,9 @@ def same(one: Result, other: Result) -> None:
         assert all(alike(table[column], other.tables[name][column]) for column in table)
     assert list(one.figures) == list(other.figures)
     for name, figure in one.figures.items():
-        assert (figure.svg, figure.about) == (other.figures[name].svg, other.figures[name].about)
-        assert figure.png() == other.figures[name].png()
+        twin = other.figures[name]
+        assert (figure.svg, figure.pdf, figure.about) == (twin.svg, twin.pdf, twin.about)
+        assert figure.png() == twin.png()
     assert one.to_xarray().identical(other.to_xarray())
 
 

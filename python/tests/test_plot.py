@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import saltus
-from saltus import Axis, Result, Study, UnknownNameError
-from saltus._plot import PERIODS, typeset
+from saltus import Axis, Result, Study, UnknownNameError, _native
+from saltus._plot import typeset
 
 matplotlib = pytest.importorskip("matplotlib")
 matplotlib.use("agg")
@@ -57,8 +57,8 @@ def test_a_bifurcation_diagram_has_a_colour_for_each_period(diagram: Result, axe
     dots = drawn(diagram, axes, markersize=1)
     assert labels(axes) == ["Period 1", "Period 2", "Chaotic"]
     one, two, chaos = dots
-    assert to_hex(one.get_color()) == PERIODS[1]
-    assert to_hex(two.get_color()) == PERIODS[2]
+    assert to_hex(one.get_color()) == _native.colour("periodic", 1)
+    assert to_hex(two.get_color()) == _native.colour("periodic", 2)
     assert two.get_markersize() == 1
     x, z = chaos.get_data()
     assert set(x) == {0.15}
@@ -113,7 +113,7 @@ def test_cells_have_discrete_colours(study: Study, axes: Axes) -> None:
     plane = saltus.map(study, x=damping, y=[0.9, 1.0], transient=100)
     (mesh,) = drawn(plane, axes)
     colours = [to_hex(colour) for colour in mesh.cmap.colors]
-    assert colours[:2] == [PERIODS[1], PERIODS[2]]
+    assert colours[:2] == [_native.colour("periodic", 1), _native.colour("periodic", 2)]
     assert labels(axes)[:2] == ["Period 1", "Period 2"]
     codes = mesh.get_array().reshape(2, 3)
     assert ((codes == 1) == (plane["period"] == 2)).all()

@@ -41,6 +41,7 @@ mod words;
 pub use about::about;
 pub use answer::{Answer, Take, Told};
 pub use citations::{Citation, bibtex, citations};
+pub use colours::of as attractor_colours;
 pub use context::{Existing, Pieces, PiecesAt, Progress, RunContext, Stage, Unwatched};
 pub use continuation::Labelled;
 pub use describe::{describe, warnings};

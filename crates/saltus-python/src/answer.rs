@@ -319,6 +319,11 @@ impl Figure {
         sound(|| Ok(py.detach(|| self.drawing.svg())))
     }
 
+    /// As PDF.
+    fn pdf(&self, py: Python<'_>) -> PyResult<Vec<u8>> {
+        sound(|| Ok(py.detach(|| self.drawing.pdf())))
+    }
+
     /// As PNG, with so many pixels per unit of the SVG.
     fn png(&self, py: Python<'_>, scale: f32) -> PyResult<Vec<u8>> {
         sound(|| {

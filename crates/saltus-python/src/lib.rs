@@ -3,6 +3,7 @@
 //! The public interface is in `python/saltus`; items here are for that package alone.
 
 mod answer;
+mod colour;
 mod error;
 mod running;
 mod saved;
@@ -16,6 +17,8 @@ use pyo3::prelude::*;
 mod _native {
     #[pymodule_export]
     use crate::answer::{Answer, Figure, ask, compute, pieces, program, read, write};
+    #[pymodule_export]
+    use crate::colour::{colour, colours, palette};
     #[pymodule_export]
     use crate::running::{count, shut_down};
     #[pymodule_export]

@@ -31,7 +31,9 @@ fn periods(found: &Found) -> usize {
     }
     let begun = |first: &f64| (first / found.model.scales().period()).floor() as usize;
     let all = found.trajectory.section.len();
-    times.first().map_or(0, |first| all.saturating_sub(begun(first)))
+    times
+        .first()
+        .map_or(0, |first| all.saturating_sub(begun(first)))
 }
 
 fn covered(found: &Found) -> String {
