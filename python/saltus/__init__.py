@@ -39,7 +39,8 @@ from saltus._errors import (
 )
 from saltus._kept import Rerun, cite, rerun
 from saltus._native import __version__
-from saltus._results import Figure, Result, Table, Variable, load
+from saltus._parts import Figure, Table, Variable
+from saltus._results import Result, load
 from saltus._tables import (
     Attractors,
     Axis,
