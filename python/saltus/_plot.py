@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from saltus._results import Result
 
-__all__ = ["plot", "pyplot", "typeset"]
+__all__ = ["NO_HISTORY", "classes", "plot", "pyplot", "typeset"]
 
 #: Things that only a number tells apart.
 CYCLE = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
@@ -119,7 +119,7 @@ def _class(kind: str, period: int) -> tuple[str, str]:
     return name, _native.colour(kind, period)
 
 
-def _classes(kinds: NDArray[Any], periods: NDArray[Any]) -> list[tuple[str, str, NDArray[np.bool_]]]:
+def classes(kinds: NDArray[Any], periods: NDArray[Any]) -> list[tuple[str, str, NDArray[np.bool_]]]:
     """Name, colour and places of each class that occurs, by rising period and then by name."""
     # a period is that of a periodic motion alone
     numbers = np.where(kinds == "periodic", periods, 0)
@@ -169,8 +169,7 @@ def _bifurcation(ax: Axes, result: Result, jumper: int, kwargs: dict[str, Any]) 
         raise unknown("direction", only, directions)
     values = result[_parameter(result)]
     artists: list[Artist] = []
-    classes = _classes(result.words("label")[chosen], result["period"][chosen])
-    for name, colour, here in classes:
+    for name, colour, here in classes(result.words("label")[chosen], result["period"][chosen]):
         _, where = np.nonzero(here)
         z = heights[chosen][here]
         x = np.broadcast_to(values[where][:, None], z.shape)
@@ -461,7 +460,7 @@ def _cells(
 
 
 def _map(ax: Axes, result: Result, jumper: int, kwargs: dict[str, Any]) -> list[Artist]:
-    return _cells(ax, result, _classes(result.words("status"), result["period"]), kwargs)
+    return _cells(ax, result, classes(result.words("status"), result["period"]), kwargs)
 
 
 def _basins(ax: Axes, result: Result, jumper: int, kwargs: dict[str, Any]) -> list[Artist]:

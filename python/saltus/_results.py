@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from saltus import _native
 from saltus._parts import Drawing, Drawn, Figure, Named, Table, Variable, read_csv, shown_size
+from saltus._plot import classes
 from saltus.study import Study
 
 if TYPE_CHECKING:
@@ -489,9 +490,32 @@ class Result(Mapping[str, NDArray[Any]]):
             what = f"{about} ({units})" if units else about
             yield f"    {variable.name:<20} ({axes})  {what}"
 
+    def _verdict(self) -> str:
+        """The answer in one line."""
+        match self.command:
+            case "simulate":
+                return str(self.attrs["status_text"]).capitalize()
+            case "orbit":
+                return f"Period {self['period']}, {self.attrs['stability']}"
+            case "lyapunov":
+                return str(self.attrs["nature"]).capitalize()
+            case "sweep" | "map":
+                kinds = self.words("label" if self.command == "sweep" else "status")
+                found = classes(kinds, self["period"])
+                return ", ".join(f"{name} {here.mean():.1%}" for name, _, here in found)
+            case "basins" | "attractors":
+                number = len(self["attractor_number" if self.command == "basins" else "attractor"])
+                return f"{number} attractor{'s' * (number != 1)}"
+            case "continue":
+                return (
+                    f"{len(self['branch_number'])} branches, {len(self['special_label'])} special points"
+                )
+            case _:
+                return str(self.attrs.get("title", self.command))
+
     def _repr_html_(self) -> str:
-        """Show the answer in words, then all figures, then the arrays."""
-        parts = [f"<pre>{html.escape(self.summary)}</pre>"]
+        """Show the verdict, the answer in words, then all figures, then the arrays."""
+        parts = [f"<p><b>{html.escape(self._verdict())}</b></p><pre>{html.escape(self.summary)}</pre>"]
         for figure in self.figures.values():
             png = figure.png()
             source = f"data:image/png;base64,{base64.b64encode(png).decode()}"

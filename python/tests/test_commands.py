@@ -92,6 +92,7 @@ def test_tables_figures_and_documents_are_those_of_the_folder(study: Study, tmp_
     assert shown["image/png"] == figure.png()
     assert f'width="{size["image/png"]["width"]}' in figure.svg
     page = result._repr_html_()
+    assert page.startswith("<p><b>Completed</b></p>")
     assert page.index("status") < page.index("<img") < page.index("<details>")
     assert page.count("<img alt=") == len(result.figures)
     assert "periods" in repr(result)
