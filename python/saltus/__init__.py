@@ -1,8 +1,8 @@
 """People who jump on a vibrating plate: what their motion can do in the long run.
 
 A study (`Study`) says which plate, people and base, and what is asked; a function for each
-question gives a `Result` with NumPy arrays, tables and figures. ``saltus.systems`` takes systems
-of one's own, ``saltus.dask`` spreads long work over many machines.
+question gives a `Result` with NumPy arrays, tables and figures; `load` reads one from its folder.
+``saltus.systems`` takes systems of one's own, ``saltus.dask`` spreads long work over many machines.
 
 Examples
 --------
@@ -11,6 +11,7 @@ Examples
 >>> motion = saltus.simulate(study, periods=50)
 >>> motion["z"].shape
 (50, 1)
+>>> lines = motion.plot()  # doctest: +SKIP
 """
 
 from saltus import _interpreter as _interpreter  # isort: skip (before the native module)
@@ -20,12 +21,12 @@ from saltus._commands import (
     continue_,
     frequencies,
     lyapunov,
-    map,  # noqa: A004 (the word of the program)
     orbit,
     reproduce,
     simulate,
     sweep,
 )
+from saltus._commands import map as map  # noqa: A004 (the word of the program)
 from saltus._errors import (
     ComputationError,
     DefinitionError,
@@ -34,10 +35,12 @@ from saltus._errors import (
     ResultError,
     SaltusError,
     StudyError,
+    UnknownNameError,
 )
 from saltus._kept import Rerun, cite, rerun
 from saltus._native import __version__
-from saltus._results import Figure, Result, Table, Variable
+from saltus._parts import Figure, Table, Variable
+from saltus._results import Result, load
 from saltus._tables import (
     Attractors,
     Axis,
@@ -60,6 +63,7 @@ from saltus._tables import (
 )
 from saltus.study import Study
 
+# `map` is left out: it would take the place of Python's own where all names are imported
 __all__ = [
     "Attractors",
     "Axis",
@@ -91,6 +95,7 @@ __all__ = [
     "StudyError",
     "Sweep",
     "Table",
+    "UnknownNameError",
     "Variable",
     "__version__",
     "attractors",
@@ -98,8 +103,8 @@ __all__ = [
     "cite",
     "continue_",
     "frequencies",
+    "load",
     "lyapunov",
-    "map",
     "orbit",
     "reproduce",
     "rerun",

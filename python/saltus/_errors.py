@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+import difflib
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
 __all__ = [
     "ComputationError",
     "DefinitionError",
@@ -10,6 +16,8 @@ __all__ = [
     "ResultError",
     "SaltusError",
     "StudyError",
+    "UnknownNameError",
+    "unknown",
 ]
 
 
@@ -61,6 +69,24 @@ class ComputationError(SaltusError, ArithmeticError):
 
 class ResultError(SaltusError, OSError):
     """A result that cannot be read or written."""
+
+
+class UnknownNameError(SaltusError, KeyError):
+    """A name that a result does not have; the message tells those that come near."""
+
+    def __str__(self) -> str:
+        """The message alone; a KeyError would show it in quotes."""
+        return str(self.args[0])
+
+
+def unknown(what: str, name: object, known: Iterable[str]) -> UnknownNameError:
+    """Give the error of a name that is none of `known`."""
+    names = list(known)
+    # a part of a name comes nearer than letters that are alike
+    near = [one for one in names if isinstance(name, str) and len(name) > 2 and name in one][:5]
+    near = near or difflib.get_close_matches(str(name), names, 5, 0.5)
+    told = f"did you mean {' or '.join(map(repr, near))}?" if near else f"there are: {', '.join(names)}"
+    return UnknownNameError(f"no {what} {name!r}; {told}")
 
 
 class InternalError(SaltusError, RuntimeError):

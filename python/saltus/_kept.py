@@ -17,7 +17,15 @@ __all__ = ["Rerun", "cite", "rerun"]
 
 @dataclass(frozen=True)
 class Rerun:
-    """Comparison of a saved result with the same question asked again."""
+    """Comparison of a saved result with the same question asked again.
+
+    Examples
+    --------
+    >>> import saltus, tempfile
+    >>> saved = saltus.frequencies(saltus.Study.paper()).save(tempfile.mkdtemp())
+    >>> print(saltus.rerun(saved).summary.splitlines()[-1])
+    Same bits: all 4 files.
+    """
 
     identical: bool
     """Whether all files are the same to the bit."""
@@ -39,10 +47,22 @@ def cite(result: str | os.PathLike[str]) -> str:
     result : path
         Folder that ``out`` or :meth:`Result.save` named, or a file in it.
 
+    Returns
+    -------
+    str
+        BibTeX.
+
     Raises
     ------
     ResultError
         If there is no result, or its study was altered.
+
+    Examples
+    --------
+    >>> import saltus, tempfile
+    >>> saved = saltus.frequencies(saltus.Study.paper()).save(tempfile.mkdtemp())
+    >>> "@" in saltus.cite(saved)
+    True
     """
     return _native.cite(Path(result))
 
@@ -65,10 +85,22 @@ def rerun(
     threads, progress
         As in :func:`simulate`.
 
+    Returns
+    -------
+    Rerun
+        Whether all files are the same to the bit, and where they differ.
+
     Raises
     ------
     ResultError
         If there is no result, or a file of it is missing or was altered.
+
+    Examples
+    --------
+    >>> import saltus, tempfile
+    >>> saved = saltus.frequencies(saltus.Study.paper()).save(tempfile.mkdtemp())
+    >>> saltus.rerun(saved).identical
+    True
     """
     with watched(progress) as told:
         identical, summary, document = _native.rerun(

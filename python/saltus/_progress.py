@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import time
 import warnings
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Protocol
@@ -65,7 +66,8 @@ class _Bar:
 
     def __init__(self) -> None:
         self._bar: Any = None
-        self._line = False
+        self._what = ""
+        self._begun = time.monotonic()
         self._broken = False
 
     def __call__(self, what: str, done: int, total: int | None, /) -> None:
@@ -78,9 +80,7 @@ class _Bar:
         with self._at_most_broken():
             if self._bar is not None:
                 self._bar.close()
-            if self._line:
-                sys.stderr.write("\r\x1b[K")
-                sys.stderr.flush()
+                self._bar = None
 
     @contextmanager
     def _at_most_broken(self) -> Iterator[None]:
@@ -91,15 +91,47 @@ class _Bar:
 
     def _draw(self, what: str, done: int, total: int | None) -> None:
         tqdm = _tqdm()
-        if tqdm is None:
+        if tqdm is not None:
+            if what != self._what:
+                self.close()
+                self._what = what
+                self._bar = tqdm(desc=what, total=total, delay=DELAY, leave=False)
+            self._bar.update(done - self._bar.n)
+        elif time.monotonic() - self._begun >= DELAY:
+            if self._bar is None:
+                self._bar = _Cell() if _in_notebook() else _Line()
             part = f"{done}" if not total else f"{100 * done // total} %"
-            sys.stderr.write(f"\r{what}: {part}")
-            sys.stderr.flush()
-            self._line = True
-            return
-        if self._bar is None:
-            self._bar = tqdm(desc=what, total=total, delay=DELAY, leave=False)
-        self._bar.update(done - self._bar.n)
+            self._bar.show(f"{what}: {part}")
+
+
+class _Line:
+    """A line of the terminal."""
+
+    def show(self, text: str) -> None:
+        sys.stderr.write(f"\r\x1b[K{text}")
+        sys.stderr.flush()
+
+    def close(self) -> None:
+        self.show("")
+
+
+class _Cell:
+    """An output of a notebook's cell, which is replaced; in the end it is empty."""
+
+    def __init__(self) -> None:
+        self._handle: Any = None
+
+    def show(self, text: str) -> None:
+        from IPython.display import display
+
+        shown = {"text/plain": text}
+        if self._handle is None:
+            self._handle = display(shown, raw=True, display_id=True)  # type: ignore[no-untyped-call]
+        else:
+            self._handle.update(shown, raw=True)
+
+    def close(self) -> None:
+        self.show("")
 
 
 def _tqdm() -> Any:

@@ -2,138 +2,41 @@
 
 from __future__ import annotations
 
+import base64
+import html
 import json
 import os
+import tempfile
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from saltus import _native
+from saltus._parts import Drawing, Drawn, Figure, Named, Table, Variable, read_csv, shown_size
+from saltus._plot import classes
 from saltus.study import Study
 
 if TYPE_CHECKING:
     import pandas
     import xarray
+    from matplotlib.animation import FuncAnimation
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from numpy.typing import ArrayLike
 
-__all__ = ["Figure", "Result", "Table", "Variable"]
-
-#: Pixels of a PNG per unit of the SVG, as the program writes it.
-SCALE = 2.0
-
-
-@dataclass(frozen=True, eq=False)
-class Variable:
-    """An array with the names of its axes and its meaning."""
-
-    name: str
-    dims: tuple[str, ...]
-    values: NDArray[Any]
-    """Shape: the lengths of `dims`."""
-    attrs: Mapping[str, Any]
-    """``long_name``, ``units`` (as UDUNITS spells them) and others."""
-    meanings: Mapping[int, str]
-    """The words that the whole numbers of `values` stand for, if they do."""
-    fill: int | None
-    """The whole number that stands for "no value", if there is one."""
-    coordinate: bool
-    """Whether it holds the places of the others along a dimension."""
-
-    @property
-    def words(self) -> NDArray[np.object_]:
-        """The words that whole numbers stand for, or the values as words."""
-        word = (lambda code: self.meanings.get(int(code), "")) if self.meanings else str
-        words = [word(value) for value in self.values.ravel()]
-        return np.array(words, dtype=object).reshape(self.values.shape)
-
-
-class Table(Mapping[str, NDArray[Any]]):
-    """Columns of equal length, as in the CSV file of the same name."""
-
-    def __init__(self, notes: Mapping[str, str], columns: Mapping[str, Any]) -> None:
-        self.notes = dict(notes)
-        """Meanings of the columns, with units."""
-        self._columns = {name: _column(values) for name, values in columns.items()}
-
-    def __getitem__(self, name: str) -> NDArray[Any]:
-        """Return a column, of shape (rows,)."""
-        return self._columns[name]
-
-    def __iter__(self) -> Iterator[str]:
-        """Go through the names of the columns."""
-        return iter(self._columns)
-
-    def __len__(self) -> int:
-        """Return the number of columns."""
-        return len(self._columns)
-
-    def to_pandas(self) -> pandas.DataFrame:
-        """Return the table as a data frame; its ``attrs`` are the notes."""
-        import pandas
-
-        frame = pandas.DataFrame(self._columns)
-        frame.attrs.update(self.notes)
-        return frame
-
-    def __repr__(self) -> str:
-        """Return the size and the names of the columns."""
-        rows = len(next(iter(self._columns.values()), ()))
-        return f"<saltus.Table, {rows} rows: {', '.join(self)}>"
-
-
-class Figure:
-    """A figure, drawn when somebody looks at it."""
-
-    def __init__(self, name: str, native: _native.Figure) -> None:
-        self.name = name
-        self._native = native
-
-    @property
-    def svg(self) -> str:
-        """The figure as SVG."""
-        return self._native.svg()
-
-    def png(self, scale: float = SCALE) -> bytes:
-        """Return the figure as PNG, with `scale` pixels per unit of the SVG."""
-        if not 0.1 <= scale <= 20.0:
-            raise ValueError(f"scale is {scale}: 0.1 to 20 would do")
-        return self._native.png(scale)
-
-    def save(self, path: str | os.PathLike[str], scale: float = SCALE) -> None:
-        """Write the figure to a file that ends in ``.svg`` or ``.png``, whole or not at all."""
-        path = Path(path)
-        match path.suffix.lower():
-            case ".svg":
-                content = self.svg.encode()
-            case ".png":
-                content = self.png(scale)
-            case other:
-                raise ValueError(f"path ends in {other!r}: .svg or .png is needed")
-        _native.write(path, content)
-
-    def _repr_mimebundle_(
-        self, include: object = None, exclude: object = None
-    ) -> tuple[dict[str, Any], dict[str, Any]]:
-        """Show it as large as its SVG, with the pixels of a fine screen."""
-        png = self.png()
-        width, height = (int.from_bytes(png[at : at + 4], "big") / SCALE for at in (16, 20))
-        size = {"width": round(width), "height": round(height)}
-        return {"text/plain": repr(self), "image/png": png}, {"image/png": size}
-
-    def __repr__(self) -> str:
-        """Return the name."""
-        return f"<saltus.Figure {self.name}>"
+__all__ = ["Result", "load"]
 
 
 class Result(Mapping[str, NDArray[Any]]):
     """Answer of a question.
 
     As a mapping it holds the arrays by name: ``result["z"]``, with the axes and units that
-    ``result.variables["z"]`` tells. In a notebook it shows its summary and its first figure.
+    ``result.variables["z"]`` tells; `repr` lists them all. In a notebook it shows its summary and its
+    figures. It can be pickled, which takes as long as :meth:`save`, and copied.
 
     Attributes
     ----------
@@ -141,6 +44,18 @@ class Result(Mapping[str, NDArray[Any]]):
         The command that was asked.
     study : Study
         The study it was asked about, every default written out.
+
+    Examples
+    --------
+    >>> import saltus
+    >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+    >>> motion = saltus.simulate(study, periods=50)
+    >>> motion["z"].shape, motion.variables["z"].dims
+    ((50, 1), ('period', 'jumper'))
+    >>> motion.summary.splitlines()[0]
+    'status      completed'
+    >>> sorted(motion.tables), sorted(motion.figures)
+    (['energy', 'history', 'section', 'switches'], ['history', 'portrait'])
     """
 
     def __init__(self, answer: _native.Answer) -> None:
@@ -160,7 +75,19 @@ class Result(Mapping[str, NDArray[Any]]):
         return report
 
     def cite(self) -> str:
-        """Return the works that this result rests on as BibTeX, each below what it was used for."""
+        """Give the works that this result rests on.
+
+        Returns
+        -------
+        str
+            BibTeX, each entry below what the work was used for.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> saltus.frequencies(saltus.Study.paper()).cite().count("@") > 1
+        True
+        """
         return self._answer.cite()
 
     @property
@@ -171,7 +98,7 @@ class Result(Mapping[str, NDArray[Any]]):
     @cached_property
     def variables(self) -> Mapping[str, Variable]:
         """The arrays with their axes, units and meanings."""
-        return {variable.name: variable for variable in self._dataset[1]}
+        return Named("array", {variable.name: variable for variable in self._dataset[1]})
 
     @property
     def attrs(self) -> Mapping[str, Any]:
@@ -181,15 +108,46 @@ class Result(Mapping[str, NDArray[Any]]):
     @cached_property
     def tables(self) -> Mapping[str, Table]:
         """The tables, by the names of their files without ``.csv``."""
-        return {_stem(name): Table(*table) for name, table in self._parts[0].items()}
+        tables = {_stem(name): Table(*table) for name, table in self._parts[0].items()}
+        read = self._files(".csv")
+        return Named("table", tables | {name: Table(*read_csv(text.decode())) for name, text in read})
 
     @cached_property
     def figures(self) -> Mapping[str, Figure]:
         """The figures, by the names of their files without ending."""
-        return {name: Figure(name, figure) for name, figure in self._parts[1].items()}
+        drawings: dict[str, Drawing] = dict(self._parts[1])
+        pages, pixels = dict(self._files(".pdf")), dict(self._files(".png"))
+        for name, svg in self._files(".svg"):
+            drawings[name] = Drawn(svg, pages[name], pixels[name])
+        about = f"{self.attrs.get('title', self.command)} ({self.command})"
+        figures = {name: Figure(name, one, f"{about}: {name}") for name, one in drawings.items()}
+        return Named("figure", figures)
 
     def words(self, name: str) -> NDArray[np.object_]:
-        """Return an array whose whole numbers stand for words as these words."""
+        """Give an array whose whole numbers stand for words as these words.
+
+        Parameters
+        ----------
+        name : str
+            The array, such as "label" of a sweep, "status" of a map, "phase" of a motion.
+
+        Returns
+        -------
+        ndarray of str, dtype object
+            Of the shape of the array.
+
+        Raises
+        ------
+        UnknownNameError
+            If there is no such array.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+        >>> saltus.simulate(study, periods=2).words("phase").ravel().tolist()
+        ['contact', 'contact']
+        """
         return self.variables[name].words
 
     def __getitem__(self, name: str) -> NDArray[Any]:
@@ -205,7 +163,27 @@ class Result(Mapping[str, NDArray[Any]]):
         return len(self.variables)
 
     def to_xarray(self) -> xarray.Dataset:
-        """Return the dataset that the program writes as NetCDF, with all its attributes."""
+        """Give all arrays with their axes, units and meanings.
+
+        Returns
+        -------
+        xarray.Dataset
+            The one that the program writes as NetCDF, with all its attributes.
+
+        Raises
+        ------
+        ImportError
+            If there is no xarray: ``pip install 'saltus[xarray]'``.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+        >>> data = saltus.sweep(study, values=[0.3, 0.5], transient=50, record=4).to_xarray()
+        >>> data.z.sel(direction="up", jumper=0).dims
+        ('jumper_damping_ratio', 'sample')
+        >>> heights = data.z * data.eta
+        """
         import xarray
 
         def array(variable: Variable) -> xarray.Variable:
@@ -230,23 +208,253 @@ class Result(Mapping[str, NDArray[Any]]):
         ).set_coords(more)
 
     def to_pandas(self, table: str | None = None) -> pandas.DataFrame:
-        """Return a table as a data frame; without a name the first."""
+        """Give a table as a data frame.
+
+        Parameters
+        ----------
+        table : str, optional
+            Its name in ``tables``; by default the first.
+
+        Returns
+        -------
+        pandas.DataFrame
+
+        Raises
+        ------
+        ValueError
+            If there are no tables.
+        UnknownNameError
+            If there is no such table.
+        ImportError
+            If there is no pandas: ``pip install 'saltus[xarray]'``.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+        >>> result = saltus.sweep(study, values=[0.3, 0.5], transient=100, record=4)
+        >>> result.to_pandas("rows")[["direction", "value", "label", "period"]].head(2)
+          direction  value     label  period
+        0        up    0.3  periodic       2
+        1        up    0.5  periodic       1
+        """
         if not self.tables:
             raise ValueError(f"{self.command} has no tables; its arrays are in to_xarray()")
-        name = next(iter(self.tables)) if table is None else table
-        if name not in self.tables:
-            raise KeyError(f"no table {name!r}; there are: {', '.join(self.tables)}")
-        return self.tables[name].to_pandas()
+        return self.tables[next(iter(self.tables)) if table is None else table].to_pandas()
+
+    def plot(
+        self, ax: Axes | None = None, what: str | None = None, *, jumper: int = 0, **kwargs: Any
+    ) -> list[Artist]:
+        """Draw the answer in axes of matplotlib.
+
+        ========== =====================================================================
+        command    `what`, the first by default
+        ========== =====================================================================
+        simulate   "portrait" (phase portrait), "history" (heights), "force" (of the
+                   feet), "acceleration" (of the floor)
+        orbit      "multipliers" (Floquet), and all those of simulate
+        sweep      "bifurcation", "exponents"
+        map        "map" (periods and kinds), or an array over the plane by its name
+        basins     "basins", "map", or an array over the plane by its name
+        continue   "branches", "curves"
+        lyapunov   "exponents", "convergence"
+        attractors "attractors" (their sections), "shares" (of the first states)
+        ========== =====================================================================
+
+        A period has the same colour in all plots.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Where to draw; by default a new figure.
+        what : str, optional
+            Which plot.
+        jumper : int
+            Whose motion, counted from 0.
+        **kwargs
+            For the points, lines or cells, such as ``markersize=1`` or ``cmap="magma"``. For
+            "bifurcation" also ``direction="up"``, which leaves out the others.
+
+        Returns
+        -------
+        list of matplotlib.artist.Artist
+            Points, lines or cells, one or several for each entry of the legend.
+
+        Raises
+        ------
+        ImportError
+            If there is no matplotlib: ``pip install 'saltus[plot]'``.
+        UnknownNameError
+            If there is no such plot; the message tells those there are.
+        ValueError
+            If there is nothing to plot, as of frequencies.
+
+        Examples
+        --------
+        >>> import matplotlib
+        >>> matplotlib.use("agg")
+        >>> import saltus
+        >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+        >>> result = saltus.sweep(study, values=[0.3, 0.4, 0.5], transient=100, record=4)
+        >>> [line.get_label() for line in result.plot()]
+        ['Period 1', 'Period 2']
+        """
+        from saltus._plot import plot
+
+        return plot(self, ax, what, jumper, kwargs)
+
+    def surface(
+        self,
+        x: ArrayLike | None = None,
+        y: ArrayLike | None = None,
+        t: ArrayLike | None = None,
+        *,
+        absolute: bool = False,
+    ) -> NDArray[np.float64]:
+        """Give the deflection of the plate w(x, y, t) (m) of simulate or orbit.
+
+        Parameters
+        ----------
+        x, y : array_like, shapes (nx,) and (ny,), optional
+            Positions along length and width (m); by default 57 each over the whole plate.
+        t : array_like, optional
+            Times (s) of the history, any number of axes; by default all of them.
+        absolute : bool
+            Height with the motion of the base; by default the deflection relative to it.
+
+        Returns
+        -------
+        ndarray of float, shape (*shape of t, ny, nx)
+            Sum of the plate's terms with the amplitudes ``history_w``, which are those of the
+            integrator's own solution: nothing is interpolated.
+
+        Raises
+        ------
+        ValueError
+            If a place is beside the plate, a time is none of the history, or the result has no history.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+        >>> motion = saltus.simulate(study, periods=1, times=[0.0, 0.1, 0.2])
+        >>> motion.surface([3.5, 7.0, 10.5], [5.0], t=0.1).shape
+        (1, 3)
+        >>> motion.surface().shape
+        (3, 57, 57)
+        """
+        from saltus._motion import surface
+
+        return surface(self, x, y, t, absolute)
+
+    def animate(
+        self,
+        view: Literal["section", "surface"] = "section",
+        *,
+        jumper: int = 0,
+        periods: int = 2,
+        frames: int = 120,
+        slower: float = 4.0,
+    ) -> FuncAnimation:
+        """Make a film of plate, base and people, from the history of simulate or orbit.
+
+        In a notebook ``IPython.display.HTML(film.to_jshtml())`` shows it, elsewhere
+        ``film.save("jump.gif")`` keeps it. Keep a reference to it as long as it plays.
+
+        Parameters
+        ----------
+        view : {"section", "surface"}
+            Section of the plate along its length through one person, or all of it in space.
+        jumper : int
+            The person that the section goes through, counted from 0.
+        periods : int
+            Forcing periods, the last ones of the history.
+        frames : int
+            Pictures at most: as many as the history has times.
+        slower : float
+            Times that it takes longer than the motion itself.
+
+        Returns
+        -------
+        matplotlib.animation.FuncAnimation
+            Legs are drawn 0.25 m long without load: those of the model have no length of their own.
+
+        Raises
+        ------
+        ImportError
+            If there is no matplotlib: ``pip install 'saltus[plot]'``.
+        ValueError
+            If the result has no history, or an argument is out of range.
+
+        Examples
+        --------
+        >>> import matplotlib
+        >>> matplotlib.use("agg")
+        >>> import saltus
+        >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+        >>> film = saltus.simulate(study, periods=12).animate(frames=3)
+        >>> "<script" in film.to_jshtml()
+        True
+        """
+        from saltus._motion import animate
+
+        return animate(self, view, jumper, periods, frames, slower)
 
     def save(self, out: str | os.PathLike[str]) -> Path:
-        """Write the folder that the program writes: the same bytes, whole or not at all."""
+        """Write the folder that the program writes: the same bytes, whole or not at all.
+
+        Parameters
+        ----------
+        out : path
+            The folder, which may be absent, empty, or an earlier result.
+
+        Returns
+        -------
+        Path
+            The folder, for :func:`saltus.load` and :func:`saltus.rerun`.
+
+        Raises
+        ------
+        ResultError
+            If the folder holds files of others, or cannot be written.
+
+        Examples
+        --------
+        >>> import saltus, tempfile
+        >>> saved = saltus.frequencies(saltus.Study.paper()).save(tempfile.mkdtemp())
+        >>> sorted(path.name for path in saved.iterdir())
+        ['frequencies.json', 'frequencies.nc', 'saltus-result.json', 'study.toml']
+        """
         out = Path(out)
         self._answer.save(out)
         return out
 
+    def __copy__(self) -> Result:
+        """Give a result with arrays of its own."""
+        return Result(self._answer)
+
+    def __deepcopy__(self, memo: object) -> Result:
+        """Give a result with arrays of its own."""
+        return Result(self._answer)
+
+    def __reduce__(self) -> tuple[Any, tuple[dict[str, bytes]]]:
+        """Pickle as the bytes of the folder that `save` writes."""
+        with tempfile.TemporaryDirectory() as folder:
+            saved = self.save(Path(folder) / "result")
+            files = [path for path in saved.rglob("*") if path.is_file()]
+            return _restored, (
+                {path.relative_to(saved).as_posix(): path.read_bytes() for path in files},
+            )
+
     @cached_property
     def _parts(self) -> _native._Parts:
         return self._answer.parts()
+
+    def _files(self, ending: str) -> Iterator[tuple[str, bytes]]:
+        """Files of a result that was read, by their names without this ending."""
+        for name, content in self._parts[3].items():
+            if name.endswith(ending):
+                yield name.removesuffix(ending), content
 
     @cached_property
     def _dataset(self) -> tuple[Mapping[str, Any], list[Variable]]:
@@ -268,6 +476,10 @@ class Result(Mapping[str, NDArray[Any]]):
     def __repr__(self) -> str:
         """Return the summary, and the arrays with their axes."""
         lines = [f"<saltus.Result of {self.command}>", self.summary, "Arrays:"]
+        return "\n".join([*lines, *self._told_arrays()])
+
+    def _told_arrays(self) -> Iterator[str]:
+        """A line for each array: name, axes, meaning and unit."""
         for variable in self.variables.values():
             axes = ", ".join(
                 f"{dim}: {length}"
@@ -276,25 +488,94 @@ class Result(Mapping[str, NDArray[Any]]):
             about = variable.attrs.get("long_name", "")
             units = variable.attrs.get("units", "")
             what = f"{about} ({units})" if units else about
-            lines.append(f"    {variable.name:<20} ({axes})  {what}")
-        return "\n".join(lines)
+            yield f"    {variable.name:<20} ({axes})  {what}"
 
-    def _repr_mimebundle_(
-        self, include: object = None, exclude: object = None
-    ) -> tuple[dict[str, Any], dict[str, Any]]:
-        text = {"text/plain": repr(self)}
+    def _verdict(self) -> str:
+        """The answer in one line."""
+        match self.command:
+            case "simulate":
+                return str(self.attrs["status_text"]).capitalize()
+            case "orbit":
+                return f"Period {self['period']}, {self.attrs['stability']}"
+            case "lyapunov":
+                return str(self.attrs["nature"]).capitalize()
+            case "sweep" | "map":
+                kinds = self.words("label" if self.command == "sweep" else "status")
+                found = classes(kinds, self["period"])
+                return ", ".join(f"{name} {here.mean():.1%}" for name, _, here in found)
+            case "basins" | "attractors":
+                number = len(self["attractor_number" if self.command == "basins" else "attractor"])
+                return f"{number} attractor{'s' * (number != 1)}"
+            case "continue":
+                return (
+                    f"{len(self['branch_number'])} branches, {len(self['special_label'])} special points"
+                )
+            case _:
+                return str(self.attrs.get("title", self.command))
+
+    def _repr_html_(self) -> str:
+        """Show the verdict, the answer in words, then all figures, then the arrays."""
+        parts = [f"<p><b>{html.escape(self._verdict())}</b></p><pre>{html.escape(self.summary)}</pre>"]
         for figure in self.figures.values():
-            shown, size = figure._repr_mimebundle_()
-            return shown | text, size
-        return text, {}
+            png = figure.png()
+            source = f"data:image/png;base64,{base64.b64encode(png).decode()}"
+            style = f"max-width: 100%; width: {shown_size(png)[0]}px"
+            parts.append(f'<img alt="{html.escape(figure.about)}" style="{style}" src="{source}">')
+        arrays = html.escape("\n".join(self._told_arrays()))
+        parts.append(
+            f"<details><summary>Arrays of {self.command}</summary><pre>{arrays}</pre></details>"
+        )
+        return "\n".join(parts)
+
+
+def load(result: str | os.PathLike[str]) -> Result:
+    """Read a result from the folder that it was written to.
+
+    It is the same as the call gave: arrays, tables, figures and words, to the bit. Figures have the
+    pixels that they were written with.
+
+    Parameters
+    ----------
+    result : path
+        Folder that ``out`` or :meth:`Result.save` named, or ``--out`` of the program; or a file in it.
+
+    Returns
+    -------
+    Result
+
+    Raises
+    ------
+    ResultError
+        If there is no result, a file of it is missing or was altered, or another version wrote what
+        this one cannot read.
+    StudyError
+        If the folder holds a study alone.
+
+    Examples
+    --------
+    >>> import saltus, tempfile
+    >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
+    >>> folder = tempfile.mkdtemp()
+    >>> first = saltus.simulate(study, periods=3, out=folder)
+    >>> again = saltus.load(folder)
+    >>> bool((again["z"] == first["z"]).all())
+    True
+    """
+    return Result(_native.read(Path(result)))
+
+
+def _restored(files: Mapping[str, bytes]) -> Result:
+    """Make the result of a pickle."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, content in files.items():
+            path = Path(folder) / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(content)
+        return load(folder)
 
 
 def _stem(name: str) -> str:
     return name.removesuffix(".csv")
-
-
-def _column(values: Any) -> NDArray[Any]:
-    return values if isinstance(values, np.ndarray) else np.array(values, dtype=object)
 
 
 def _values(values: Any, shape: list[int]) -> NDArray[Any]:

@@ -274,6 +274,21 @@ class Simulate:
     Range: 0 to 1e7. Default: 0.
     """
 
+    history: int | None = None
+    """Last periods that the time history covers (-, a whole number), such as 20; at
+    most those that are not left out. Range: 1 to 100000. Default: 20.
+    """
+
+    samples_per_period: int | None = None
+    """Points of the time history in each period, at equal times (-, a whole number),
+    such as 400. Range: 1 to 1e6. Default: 400.
+    """
+
+    times: Numbers | None = None
+    """Times of the time history since the start (s), ascending, such as [0.0, 0.05,
+    0.1]; instead of `history` and `samples_per_period`. Range: 0 to 1e13.
+    """
+
 
 @dataclass(frozen=True, kw_only=True)
 class Sweep:

@@ -28,7 +28,8 @@ if TYPE_CHECKING:
 
     from distributed import Client, Future
 
-__all__ = ["basins", "map", "sweep"]
+# `map` is left out: it would take the place of Python's own where all names are imported
+__all__ = ["basins", "sweep"]
 
 #: Tasks per thread of the cluster, about: enough to even out costs, few enough for the scheduler.
 TASKS_PER_THREAD = 8
@@ -66,6 +67,11 @@ def map(  # noqa: A001 (the word of the program)
     ------
     ComputationError
         If the cluster loses the work, as with its scheduler. It can be asked again.
+
+    Examples
+    --------
+    >>> from distributed import Client  # doctest: +SKIP
+    >>> result = saltus.dask.map(study, client=Client("scheduler:8786"))  # doctest: +SKIP
     """
     return _run({"command": "map"}, study, client, tasks, out, progress)
 
@@ -79,7 +85,26 @@ def basins(
     out: str | os.PathLike[str] | None = None,
     progress: Progress = None,
 ) -> Result:
-    """Find the long-term motion of each first state; see :func:`saltus.basins` and :func:`map`."""
+    """Basins of attraction: the long-term motion that each first state leads to.
+
+    Parameters
+    ----------
+    study : Study or path
+        With a table ``basins``.
+    match : bool
+        As for :func:`saltus.basins`.
+    client, tasks, out, progress
+        As for :func:`map`.
+
+    Returns
+    -------
+    Result
+        The same bits as :func:`saltus.basins` gives.
+
+    Examples
+    --------
+    >>> result = saltus.dask.basins(study, client=client)  # doctest: +SKIP
+    """
     request = {"command": "basins", "match": bool(match)}
     return _run(request, study, client, tasks, out, progress)
 
@@ -94,8 +119,22 @@ def sweep(
 ) -> Result:
     """Long-term motion along a parameter, each value anew from several starts.
 
-    ``study.sweep.direction`` must be ``"restarts"``: a state that is carried on is no work for many. See
-    :func:`saltus.sweep` and :func:`map`.
+    Parameters
+    ----------
+    study : Study or path
+        With a table ``sweep`` whose ``direction`` is "restarts": a state that is carried on is no work
+        for many.
+    client, tasks, out, progress
+        As for :func:`map`.
+
+    Returns
+    -------
+    Result
+        The same bits as :func:`saltus.sweep` gives.
+
+    Examples
+    --------
+    >>> result = saltus.dask.sweep(study, client=client)  # doctest: +SKIP
     """
     return _run({"command": "sweep"}, study, client, tasks, out, progress)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import html
 import json
 import math
 import os
@@ -82,17 +83,77 @@ class Study:
 
     @classmethod
     def paper(cls) -> Study:
-        """Return the case of Dias & Del Prado, section 3."""
+        """Give the case of Dias & Del Prado, section 3.
+
+        Returns
+        -------
+        Study
+
+        Examples
+        --------
+        >>> import saltus
+        >>> saltus.Study.paper().plate.length
+        14.0
+        """
         return _of(_native.paper())
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], changes: Mapping[str, object] | None = None) -> Study:
-        """Read a study file, with changes as in :meth:`set`."""
+        """Read a study file.
+
+        Parameters
+        ----------
+        path : path
+            The file, in TOML.
+        changes : mapping, optional
+            As in :meth:`set`.
+
+        Returns
+        -------
+        Study
+
+        Raises
+        ------
+        StudyError
+            If the file is no study; the message has the line.
+
+        Examples
+        --------
+        >>> import saltus, tempfile
+        >>> path = f"{tempfile.mkdtemp()}/study.toml"
+        >>> saltus.Study.paper().save(path)
+        >>> saltus.Study.load(path, {"jumper.mass": 80.0}).jumper[0].mass
+        80.0
+        """
         return _of(_native.load(Path(path), _overrides(changes)))
 
     @classmethod
     def parse(cls, text: str, changes: Mapping[str, object] | None = None) -> Study:
-        """Read the text of a study file (TOML), with changes as in :meth:`set`."""
+        """Read the text of a study file.
+
+        Parameters
+        ----------
+        text : str
+            TOML.
+        changes : mapping, optional
+            As in :meth:`set`.
+
+        Returns
+        -------
+        Study
+
+        Raises
+        ------
+        StudyError
+            If the text is no study; the message has the line.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> study = saltus.Study.paper()
+        >>> saltus.Study.parse(study.to_toml()) == study
+        True
+        """
         return _of(_native.parse("text", text, _overrides(changes)))
 
     def set(self, changes: Mapping[str, object]) -> Study:
@@ -103,19 +164,87 @@ class Study:
         changes : mapping
             Keys as in the study file with a dot between table and key: ``"plate.inertia"``,
             ``"jumper.damping_ratio"`` for everyone, ``"jumper.0.mass"`` for one person.
+
+        Returns
+        -------
+        Study
+            A new one; this one stays as it is.
+
+        Raises
+        ------
+        StudyError
+            If there is no such key or its value cannot be.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> study = saltus.Study.paper().set({"jumper.mass": 80.0, "plate.inertia": "condensed"})
+        >>> study.jumper[0].mass, study.plate.inertia
+        (80.0, 'condensed')
         """
         return _of(_native.resolve(self._resolved[0], _overrides(changes)))
 
     def replace(self, **tables: Any) -> Study:
-        """Return the study with whole tables in place of its own, such as ``sweep=Sweep(...)``."""
+        """Return the study with whole tables in place of its own.
+
+        Parameters
+        ----------
+        **tables
+            Tables by their names, such as ``sweep=Sweep(...)``; None takes one away.
+
+        Returns
+        -------
+        Study
+            A new one; this one stays as it is.
+
+        Raises
+        ------
+        StudyError
+            If the tables do not make a study.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> sweep = saltus.Sweep(parameter="jumper.mass", from_=60.0, to=90.0, count=31)
+        >>> saltus.Study.paper().replace(sweep=sweep, map=None).sweep.count
+        31
+        """
         return dataclasses.replace(self, **tables)
 
     def to_toml(self) -> str:
-        """Return the study as the text of a study file, every default written out."""
+        """Return the study as the text of a study file.
+
+        Returns
+        -------
+        str
+            TOML, every default written out.
+
+        Examples
+        --------
+        >>> import saltus
+        >>> saltus.Study.paper().to_toml().startswith("format = 1")
+        True
+        """
         return self._resolved[1]
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the study file that the program reads, whole or not at all."""
+        """Write the study file that the program reads, whole or not at all.
+
+        Parameters
+        ----------
+        path : path
+            The file.
+
+        Raises
+        ------
+        ResultError
+            If it cannot be written.
+
+        Examples
+        --------
+        >>> import saltus, tempfile
+        >>> saltus.Study.paper().save(f"{tempfile.mkdtemp()}/study.toml")
+        """
         _native.write(Path(path), self.to_toml().encode())
 
     @property
@@ -133,13 +262,38 @@ class Study:
         return _native.describe(self._resolved[0])[0].rstrip()
 
     def __repr__(self) -> str:
-        """Return the tables that are there."""
-        asked = [field.name for field in dataclasses.fields(self) if getattr(self, field.name)]
-        return f"<saltus.Study {self.hash[:12]}: {', '.join(asked)}>"
+        """Return the description, below the beginning of the hash."""
+        return f"<saltus.Study {self.hash[:12]}>\n{self}"
+
+    def _repr_html_(self) -> str:
+        """Show the description, and the study file when it is opened."""
+        file = (
+            f"<details><summary>Study file</summary><pre>{html.escape(self.to_toml())}</pre></details>"
+        )
+        return f"<pre>{html.escape(str(self))}</pre>\n{file}"
 
     def __reduce__(self) -> tuple[Any, tuple[str]]:
         """Pickle as the text of the study file, which gives the same bits."""
         return Study.parse, (self.to_toml(),)
+
+    def _with(self, table: str, given: Mapping[str, object]) -> Study:
+        """The study with those of `given` that are keys of one table and not None."""
+        changes: dict[str, Any] = {}
+        tree = json.loads(self._resolved[0])
+        own = tree.get(table, {})
+        for field in dataclasses.fields(TABLES[table]):
+            key, value = field.name.rstrip("_"), given.get(field.name)
+            if value is None:
+                continue
+            name = f"{table}.{key}"
+            if name in TABLES and not dataclasses.is_dataclass(value):
+                # of an axis, its values alone
+                changes[key] = _merged(own.get(key, {}), {"values": _plain(name, value)})
+            else:
+                changes[key] = _plain(name, value)
+        if not changes:
+            return self
+        return _of(_native.resolve(json.dumps(tree | {table: _merged(own, changes)}), []))
 
     # set in __post_init__; JSON, TOML and hash of the resolved study
     @property
@@ -152,8 +306,27 @@ class Study:
         for field in dataclasses.fields(self):
             table = field.name.rstrip("_")
             value = _built(table, tree.get(table))
-            object.__setattr__(self, field.name, () if value is None and table == "jumper" else value)
+            object.__setattr__(self, field.name, Jumpers(value or ()) if table == "jumper" else value)
         self.__dict__["resolved"] = resolved
+
+
+class Jumpers(tuple[Jumper, ...]):
+    """The people of a study, counted from 0."""
+
+    __slots__ = ()
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            """Say that a key is that of one person."""
+            if not any(field.name == name for field in dataclasses.fields(Jumper)):
+                raise AttributeError(f"the people of a study have no {name}")
+            if not self:
+                raise AttributeError(f"there is no jumper, so there is no {name}")
+            raise AttributeError(
+                f"jumper is a list of {len(self)}: jumper[0].{name} is that of the first; "
+                f'set({{"jumper.{name}": ...}}) changes that of everyone'
+            )
 
 
 StudyLike = Study | str | os.PathLike[str]
@@ -186,6 +359,22 @@ def _built(name: str, value: Any) -> Any:
     if isinstance(value, list):
         return tuple(_built(name, item) for item in value)
     return value
+
+
+def _merged(own: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """A table with other keys.
+
+    Values that are given in one way replace those given in the other; another parameter replaces both.
+    """
+    even = ("from", "to", "count")
+    dropped: set[str] = set()
+    if "values" in changes:
+        dropped |= set(even)
+    elif any(key in changes for key in even):
+        dropped.add("values")
+    if changes.get("parameter", own.get("parameter")) != own.get("parameter"):
+        dropped |= {*even, "values"}
+    return {key: value for key, value in own.items() if key not in dropped} | dict(changes)
 
 
 def _json(study: Study) -> str:

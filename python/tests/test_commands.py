@@ -87,9 +87,14 @@ def test_tables_figures_and_documents_are_those_of_the_folder(study: Study, tmp_
     frame = result.to_pandas("section")
     assert list(frame["z"]) == list(result["z"][:, 0])
     assert result.report["version"] == saltus.__version__
-    shown, size = result._repr_mimebundle_()
-    assert shown["image/png"] == result.figures["portrait"].png()
-    assert f'width="{size["image/png"]["width"]}' in result.figures["portrait"].svg
+    figure = result.figures["portrait"]
+    shown, size = figure._repr_mimebundle_()
+    assert shown["image/png"] == figure.png()
+    assert f'width="{size["image/png"]["width"]}' in figure.svg
+    page = result._repr_html_()
+    assert page.startswith("<p><b>Completed</b></p>")
+    assert page.index("status") < page.index("<img") < page.index("<details>")
+    assert page.count("<img alt=") == len(result.figures)
     assert "periods" in repr(result)
 
 

@@ -4,7 +4,7 @@ use saltus::orbits::MotionKind;
 use saltus_results::Colour;
 
 /// A colour for each of `kinds`; `None` when there are no more.
-pub(crate) fn of(kinds: impl IntoIterator<Item = MotionKind>) -> Vec<Option<Colour>> {
+pub fn of(kinds: impl IntoIterator<Item = MotionKind>) -> Vec<Option<Colour>> {
     let mut taken: Vec<Colour> = Vec::new();
     let colour = |kind: MotionKind| {
         let own = match kind {

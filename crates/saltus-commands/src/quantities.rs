@@ -59,9 +59,10 @@ quantities! { SECTION {
     TERM: "term" "1" "Transverse term of the plate";
     TERM_M: "m" "1" "Half-waves of the term along x";
     TERM_N: "n" "1" "Half-waves of the term along y";
+    ETA: "eta" "m" "Unit of height, eta = g/omega_h^2: z times eta is the height";
     Z: "z" "1" "Height over eta = g/omega_h^2";
     V: "v" "1" "Velocity over eta omega_h";
-    W: "w" "1" "Plate amplitude over thickness h, by terms";
+    W: "w" "1" "Plate amplitude relative to the base over thickness h, by terms";
     PHASE: "phase" ["contact", "flight", "none"] "Contact or flight";
 } }
 
@@ -71,8 +72,15 @@ quantities! { HISTORY {
     HISTORY_TIME: "history_time" "s" "Time since the start";
     HISTORY_Z: "history_z" = Z;
     HISTORY_V: "history_v" = V;
+    HISTORY_PHASE: "history_phase" = PHASE;
     HISTORY_PRF: "history_prf" "1" "Plate reaction force over body weight";
-    HISTORY_FLOOR: "history_floor" "m" "Height of the plate under the feet";
+    HISTORY_W: "history_w" = W;
+    HISTORY_BASE: "history_base" "m" "Height of the base";
+    HISTORY_FLOOR: "history_floor" "m" "Height of the plate under the feet, motion of the base included";
+    HISTORY_FLOOR_ACCELERATION: "history_floor_acceleration" "m s-2"
+        "Absolute vertical acceleration of the plate under the feet, motion of the base included";
+    HISTORY_FLOOR_RELATIVE: "history_floor_acceleration_relative" "m s-2"
+        "Vertical acceleration of the plate under the feet relative to the base";
     SWITCH_TIME: "switch_time" = HISTORY_TIME;
     SWITCH_JUMPER: "switch_jumper" "1" "Who switches";
     SWITCH_KIND: "switch_kind" ["take-off", "touch-down", "tangency"]
@@ -189,8 +197,8 @@ quantities! { FREQUENCIES {
 // Sweeps
 
 quantities! { SWEEP {
-    PASS: "pass" "1" "Way through the values";
-    DIRECTION: "direction" ["up", "down", "start"] "Up and down carry the state on; start begins anew at each value";
+    DIRECTION: "direction" ""
+        "Way through the values: up and down carry the state on; start z v begins anew at each value from that state";
     START_Z: "start_z" "1" "First height over eta";
     START_V: "start_v" "1" "First velocity over eta omega_h";
     SAMPLE: "sample" "1" "Forcing period of the record, at whose end cos(Omega t) = 1";
@@ -408,7 +416,7 @@ quantities! { PAPER {
     REGIME_TO: "regime_to" "1" "between these damping ratios all multipliers of the cycle lie inside the unit circle";
     REGIME_TO_IS: "regime_to_is" "" "What happens at regime_to";
     SWEEP_RATIO: "sweep_frequency_ratio" = RATIO;
-    SWEEP_PASS: "sweep_pass" = PASS_TEXT;
+    SWEEP_DIRECTION: "sweep_direction" = DIRECTION;
     SWEEP_DAMPING: "sweep_damping_ratio" = DAMPING;
     SWEEP_CYCLE: "sweep_cycle" "1" "Period of the stable cycle that the motion is on, to 0.05 eta; none if on none";
     SWEEP_SLOW: "sweep_slow" "1"
@@ -455,5 +463,4 @@ quantities! { {
     LARGEST_REAL: "largest_real" "1" "Largest Floquet multiplier, real";
     LARGEST_IMAGINARY: "largest_imaginary" "1" "Largest Floquet multiplier, imaginary";
     ORIGIN: "origin" = BRANCH_ORIGIN;
-    PASS_TEXT: "pass_text" "" "Way through the values: up, down, or its first state";
 } }

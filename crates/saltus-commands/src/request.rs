@@ -6,6 +6,7 @@ use crate::continuation::Labelled;
 use crate::failure::CommandError;
 use crate::pieces::{Divided, ShardReport};
 use crate::quantities as q;
+use crate::saved::{SHORTFALL, SUMMARY};
 use crate::shard::Shard;
 use crate::store::Store;
 use crate::{
@@ -90,7 +91,7 @@ impl Request {
     /// their keys.
     pub fn quantities(&self) -> Vec<Quantity> {
         const STATUS: &[Quantity] = &[q::STATUS, q::STATUS_TEXT];
-        const PERSON: &[Quantity] = &[q::JUMPER, q::Z, q::V, q::CONTACT_RATIO];
+        const PERSON: &[Quantity] = &[q::JUMPER, q::ETA, q::Z, q::V, q::CONTACT_RATIO];
         const LOADS: &[Quantity] = &[q::CONTACT_RATIO, q::PEAK_REACTION];
         const PEAKS: &[Quantity] = &[q::PEAK_REACTION, q::PEAK_ACCELERATION];
         const NAMED: &[Quantity] = &[q::PERIOD, q::CONFIDENCE];
@@ -115,7 +116,7 @@ impl Request {
                     q::JUMPER,
                 ],
             ],
-            Self::Basins { .. } => return [q::BASINS, &Self::Map.quantities()].concat(),
+            Self::Basins { .. } => return [q::BASINS, &[q::ETA], &Self::Map.quantities()].concat(),
             Self::Orbit => &[
                 &[q::PERIOD],
                 q::ORBITS,
@@ -246,6 +247,10 @@ impl dyn Answer + '_ {
     /// # Errors
     /// [`CommandError`] where the store refuses or a figure cannot be drawn.
     pub fn store(&self, request: &Request, store: &mut dyn Store) -> Result<(), CommandError> {
+        store.put_words(SUMMARY, &Told::summary(self));
+        if let Some(shortfall) = self.shortfall() {
+            store.put_words(SHORTFALL, &shortfall.to_string());
+        }
         store.put_text(&request.document(), &mut |file| Told::document(self, file))?;
         self.fill(store, &request.dataset())
     }

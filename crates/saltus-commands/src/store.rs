@@ -36,6 +36,11 @@ pub trait Store {
     /// # Errors
     /// [`CommandError`] if it cannot be kept.
     fn put_dataset(&mut self, name: &str, dataset: Dataset) -> Result<(), CommandError>;
+
+    /// The answer in words, which stand in no file of their own.
+    fn put_words(&mut self, name: &str, text: &str) {
+        let _ = (name, text);
+    }
 }
 
 impl dyn Store + '_ {
@@ -129,6 +134,10 @@ fn refuse_answer(dir: &Path) -> Result<(), CommandError> {
 }
 
 impl Store for Folder {
+    fn put_words(&mut self, name: &str, text: &str) {
+        self.inner.note(name, text);
+    }
+
     fn put_text(&mut self, name: &str, fill: Fill) -> Result<(), CommandError> {
         Ok(self.inner.write_with(name, |file| fill(file))?)
     }

@@ -2,6 +2,7 @@
 
 use crate::failure::CommandError;
 use saltus::model::{Contact, Model};
+use saltus::study::Pass;
 use saltus_config::{Parameter, Study};
 use saltus_results::Axis;
 
@@ -61,6 +62,15 @@ pub(crate) fn capitalized(text: &str) -> String {
     letters.next().map_or(String::new(), |first| {
         first.to_uppercase().chain(letters).collect()
     })
+}
+
+/// Words for a way through the values; that of a start is told apart from others by its first state.
+pub(crate) fn direction(pass: &Pass) -> String {
+    match pass {
+        Pass::Up => "up".to_owned(),
+        Pass::Down => "down".to_owned(),
+        Pass::Start { z, v } => format!("start {z} {v}"),
+    }
 }
 
 /// Word for a contact state.

@@ -26,6 +26,7 @@ pub(crate) fn faults(study: &Study) -> Vec<Fault> {
     let mut faults = validate::faults_of_system(study);
     // the ends of a parameter are tried on a study that is itself sound
     if faults.is_empty() {
+        simulate(study, &mut faults);
         sweep(study, &mut faults);
         map(study, &mut faults);
         basins(study, &mut faults);
@@ -34,6 +35,20 @@ pub(crate) fn faults(study: &Study) -> Vec<Fault> {
         attractors(study, &mut faults);
     }
     faults
+}
+
+/// Times of a time history ascend.
+fn simulate(study: &Study, faults: &mut Vec<Fault>) {
+    let times = study.simulate.times.as_deref().unwrap_or_default();
+    let wrong_pair = times.windows(2).position(|pair| pair[0] >= pair[1]);
+    faults.extend(wrong_pair.map(|before| {
+        let what = format!(
+            "a time after the one before it, {:?}, is needed",
+            times[before]
+        );
+        let at = format!("simulate.times.{}", before + 1);
+        wrong(&at, times[before + 1], &what)
+    }));
 }
 
 /// The parameter can vary over its values, and restarts have first states.

@@ -1,15 +1,15 @@
 //! Questions of a study file and what was found, as `saltus_commands` has them.
 
 use crate::error;
-use crate::running::{Board, Listener, attended, sound};
+use crate::running::{Board, Listener, aside, attended, sound};
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 use saltus_commands::{
-    Answer as Answered, CommandError, Destination, Existing, Fill, Folder, Pieces, PiecesAt,
-    Request, RunContext, Store, Told, about, bibtex, citations,
+    Answer as Answered, CommandError, Destination, Existing, Fill, Folder, KeptResult, Pieces,
+    PiecesAt, Request, RunContext, SavedResult, Store, Told, about, bibtex, citations,
 };
 use saltus_config::Study;
 use saltus_results::{
@@ -27,10 +27,31 @@ pub(crate) struct Answer {
     known: Arc<Known>,
 }
 
-struct Known {
-    request: Request,
-    study: Study,
-    found: Box<dyn Answered>,
+enum Known {
+    /// Computed here.
+    Found {
+        request: Request,
+        study: Study,
+        found: Box<dyn Answered>,
+    },
+    /// Read from a folder.
+    Kept(KeptResult),
+}
+
+impl Known {
+    fn request(&self) -> &Request {
+        match self {
+            Self::Found { request, .. } => request,
+            Self::Kept(kept) => kept.request(),
+        }
+    }
+
+    fn study(&self) -> &Study {
+        match self {
+            Self::Found { study, .. } => study,
+            Self::Kept(kept) => kept.study(),
+        }
+    }
 }
 
 /// A piece of long work: its number, and bytes that say of themselves whether they are whole and of which work.
@@ -158,7 +179,7 @@ fn asked(
         destination.store(out, found.as_ref())?;
         found.stored()?;
     }
-    let known = Known {
+    let known = Known::Found {
         request,
         study,
         found,
@@ -168,59 +189,93 @@ fn asked(
     })
 }
 
+/// Reads a result from its folder.
+#[pyfunction]
+pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<Answer> {
+    aside(py, move || {
+        let kept = SavedResult::open(&path).and_then(SavedResult::read);
+        let kept = kept.map_err(|failure| error::of(&failure))?;
+        Ok(Answer {
+            known: Arc::new(Known::Kept(kept)),
+        })
+    })
+}
+
 #[pymethods]
 impl Answer {
     /// The command.
     #[getter]
     fn command(&self) -> &'static str {
-        self.known.request.name()
+        self.known.request().name()
     }
 
     /// The study it is about, as JSON, TOML and hash.
     #[getter]
     fn study(&self) -> PyResult<(String, String, String)> {
-        let study = &self.known.study;
+        let study = self.known.study();
         sound(|| Ok((study.to_json(), study.to_toml(), study.hash())))
     }
 
     /// What it says to people.
     fn summary(&self) -> PyResult<String> {
-        sound(|| Ok(Told::summary(&*self.known.found)))
+        sound(|| {
+            Ok(match &*self.known {
+                Known::Found { found, .. } => Told::summary(&**found),
+                Known::Kept(kept) => kept.summary().to_owned(),
+            })
+        })
     }
 
     /// The JSON document.
     fn document(&self, py: Python<'_>) -> PyResult<String> {
         sound(|| {
-            let mut text = Vec::new();
-            py.detach(|| Told::document(&*self.known.found, &mut text))?;
+            let text = match &*self.known {
+                Known::Found { found, .. } => {
+                    let mut text = Vec::new();
+                    py.detach(|| Told::document(&**found, &mut text))?;
+                    text
+                }
+                Known::Kept(kept) => kept.document().to_vec(),
+            };
             String::from_utf8(text).map_err(error::of_computation)
         })
     }
 
     /// The works that it rests on, as BibTeX.
     fn cite(&self) -> PyResult<String> {
-        sound(|| Ok(bibtex(&citations(&self.known.request, &self.known.study))))
+        sound(|| {
+            Ok(match &*self.known {
+                Known::Found { request, study, .. } => bibtex(&citations(request, study)),
+                Known::Kept(kept) => kept.cite(),
+            })
+        })
     }
 
     /// Why it is not all that was asked for, if so.
     fn shortfall(&self) -> PyResult<Option<String>> {
         sound(|| {
-            Ok(self
-                .known
-                .found
-                .shortfall()
-                .map(|failure| failure.to_string()))
+            Ok(match &*self.known {
+                Known::Found { found, .. } => found.shortfall().map(|failure| failure.to_string()),
+                Known::Kept(kept) => kept.shortfall().map(str::to_owned),
+            })
         })
     }
 
-    /// Everything but the document: tables, figures, datasets and texts, each a dict by name.
+    /// Everything but the document: tables, figures, datasets and texts, each a dict by name. Of a result that was read
+    /// tables and figures are among the texts, as the bytes of their files.
     fn parts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         sound(|| {
             let mut memory = Memory::default();
-            let found = &self.known.found;
-            let name = self.known.request.dataset();
-            py.detach(|| found.fill(&mut memory, &name))
-                .map_err(|failure| error::of(&failure))?;
+            let name = self.known.request().dataset();
+            py.detach(|| match &*self.known {
+                Known::Found { found, .. } => found.fill(&mut memory, &name),
+                Known::Kept(kept) => {
+                    memory.texts = kept.files().to_vec();
+                    memory.datasets.push((name, kept.data()?));
+                    Ok(())
+                }
+            })
+            .map_err(|failure| error::of(&failure))?;
             memory.handed_over(py)
         })
     }
@@ -233,15 +288,18 @@ impl Answer {
                 stop: stop.clone(),
                 ..RunContext::default()
             };
-            let save = || {
-                let mut folder = Folder::stage(
-                    &out,
-                    Some(about(&known.request, &known.study)),
-                    &known.study,
-                    &context,
-                )?;
-                known.found.store(&known.request, &mut folder)?;
-                folder.commit().map(drop)
+            let save = || match &*known {
+                Known::Found {
+                    request,
+                    study,
+                    found,
+                } => {
+                    let about = about(request, study);
+                    let mut folder = Folder::stage(&out, Some(about), study, &context)?;
+                    found.store(request, &mut folder)?;
+                    folder.commit().map(drop)
+                }
+                Known::Kept(kept) => kept.save(&out),
             };
             save().map_err(|failure| error::of(&failure))
         })
@@ -259,6 +317,11 @@ impl Figure {
     /// As SVG.
     fn svg(&self, py: Python<'_>) -> PyResult<String> {
         sound(|| Ok(py.detach(|| self.drawing.svg())))
+    }
+
+    /// As PDF.
+    fn pdf(&self, py: Python<'_>) -> PyResult<Vec<u8>> {
+        sound(|| Ok(py.detach(|| self.drawing.pdf())))
     }
 
     /// As PNG, with so many pixels per unit of the SVG.

@@ -3,6 +3,7 @@
 //! The public interface is in `python/saltus`; items here are for that package alone.
 
 mod answer;
+mod colour;
 mod error;
 mod running;
 mod saved;
@@ -15,7 +16,9 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use crate::answer::{Answer, Figure, ask, compute, pieces, program, write};
+    use crate::answer::{Answer, Figure, ask, compute, pieces, program, read, write};
+    #[pymodule_export]
+    use crate::colour::{colour, colours, palette};
     #[pymodule_export]
     use crate::running::{count, shut_down};
     #[pymodule_export]

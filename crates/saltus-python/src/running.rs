@@ -52,6 +52,8 @@ impl Board {
         match (listener, stage) {
             (Some(call), Some(stage)) => {
                 let done = stage.done.load(Ordering::Relaxed);
+                // a total may be an estimate, and nothing is more than whole
+                let done = stage.total.map_or(done, |total| done.min(total));
                 call.call1(py, (stage.what, done, stage.total)).map(drop)
             }
             _ => Ok(()),

@@ -87,6 +87,12 @@ pub enum ResultsError {
         /// The fault, and what would be right.
         problem: String,
     },
+    /// Bytes that should be a dataset and are none that this program writes.
+    #[error("the dataset cannot be read: {reason}")]
+    Unreadable {
+        /// The reader's own words.
+        reason: String,
+    },
     /// A folder of pieces is in use by another run.
     #[error(
         "the folder `{}` is in use by another run{}: wait for it to end, or choose another folder",

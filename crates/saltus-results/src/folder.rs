@@ -29,6 +29,8 @@ pub struct ResultFolder {
     parents: Vec<PathBuf>,
     about: serde_json::Value,
     files: Vec<FileRecord>,
+    /// Manifest of an earlier result that this is a copy of.
+    copied: Option<Manifest>,
 }
 
 impl ResultFolder {
@@ -62,6 +64,7 @@ impl ResultFolder {
             parents,
             about: serde_json::json!({}),
             files: Vec::new(),
+            copied: None,
         };
         // The temporary folder is private to its owner; files inside follow the user's own rules.
         fs::create_dir(folder.content())
@@ -73,6 +76,16 @@ impl ResultFolder {
     /// time and no name of a machine, or equal runs would not be equal folders.
     pub fn about(&mut self, about: serde_json::Value) {
         self.about = about;
+    }
+
+    /// Says one thing more in the manifest, as the answer in words.
+    pub fn note(&mut self, name: &str, text: &str) {
+        self.about[name] = text.into();
+    }
+
+    /// Keeps the manifest of the result whose files are staged, as it was written.
+    pub fn copy_of(&mut self, manifest: &Manifest) {
+        self.copied = Some(manifest.clone());
     }
 
     /// Stages `bytes` as the file `name`, a relative path with `/` between folders.
@@ -133,7 +146,9 @@ impl ResultFolder {
     /// # Errors
     /// As [`stage`](Self::stage), if the target changed in between or a move fails.
     pub fn commit(mut self) -> Result<PathBuf, ResultsError> {
-        let manifest = Manifest::new(std::mem::take(&mut self.about), self.files.clone());
+        let about = std::mem::take(&mut self.about);
+        let copied = self.copied.take();
+        let manifest = copied.unwrap_or_else(|| Manifest::new(about, self.files.clone()));
         self.write(MARKER, manifest.to_text())?;
         if check_target(&self.target)? {
             self.move_files()?;

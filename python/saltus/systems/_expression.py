@@ -44,6 +44,12 @@ class Expression(Entrywise):
 
     Expressions are compared with each other by identity, and have no value, so no truth value either.
     Any other operation raises a `saltus.FormulaError` that says what to write instead.
+
+    Examples
+    --------
+    >>> x, v = states("x", "v")
+    >>> -x - 0.1 * v**3
+    ((-x) - (0.1 * (v ** 3.0)))
     """
 
     __slots__ = ("changes", "of", "operation", "tag")
@@ -183,10 +189,20 @@ def states(*names: str, scale: Scales = None) -> tuple[Expression, ...]:
     Parameters
     ----------
     *names : str
-        What they are called.
+        What they are called, such as ``"x", "v"``.
     scale : float or Expression of parameters, or a sequence of one for each state, optional
         The size below which a state need not be resolved further, in its unit: errors are relative to
         how large a state has lately been, and to its scale where that is larger.
+
+    Returns
+    -------
+    tuple of Expression
+        To be calculated with.
+
+    Raises
+    ------
+    DefinitionError
+        If a scale is not positive, or changes with time.
 
     Examples
     --------
@@ -212,6 +228,14 @@ def state_array(name: str, shape: int | tuple[int, ...], *, scale: Scales = None
     Returns
     -------
     ndarray of Expression
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> q = state_array("q", 2)
+    >>> stiffness = np.array([[2.0, -1.0], [-1.0, 2.0]])
+    >>> (stiffness @ q)[0]
+    ((2.0 * q[0]) + (-1.0 * q[1]))
     """
     places = list(np.ndindex(shape))
     labels = [f"{name}[{', '.join(map(str, place))}]" for place in places]
@@ -247,7 +271,23 @@ def _scale(label: str, value: Any) -> Expression | None:
 
 
 def parameters(*names: str) -> tuple[Expression, ...]:
-    """Parameters of a system, one for each name; each member of a run may have other values."""
+    """Parameters of a system, one for each name; each member of a run may have other values.
+
+    Parameters
+    ----------
+    *names : str
+        What they are called, and the values are given under.
+
+    Returns
+    -------
+    tuple of Expression
+
+    Examples
+    --------
+    >>> f, omega = parameters("f", "omega")
+    >>> f * omega**2
+    (f * (omega ** 2.0))
+    """
     return tuple(Expression("parameter", tag=(name, ()), changes=False) for name in names)
 
 
@@ -264,6 +304,11 @@ def parameter_array(name: str, shape: int | tuple[int, ...]) -> NDArray[np.objec
     Returns
     -------
     ndarray of Expression
+
+    Examples
+    --------
+    >>> parameter_array("k", 3)[1]
+    k[1]
     """
     whole = (shape,) if isinstance(shape, int) else tuple(shape)
     array = array_of(whole)

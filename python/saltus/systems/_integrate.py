@@ -45,6 +45,11 @@ class Taylor:
     instructions : {"best", "avx2", "baseline"}
         Instruction set for the series. Results differ by rounding between "baseline" and the others;
         fix it for the same bits on other machines.
+
+    Examples
+    --------
+    >>> Taylor(tolerance=1e-12).tolerance
+    1e-12
     """
 
     tolerance: float = 1e-10
@@ -60,6 +65,11 @@ class RungeKutta4:
     ----------
     steps_per_period : int
         Steps in one period.
+
+    Examples
+    --------
+    >>> RungeKutta4(steps_per_period=1000).steps_per_period
+    1000
     """
 
     steps_per_period: int
@@ -101,13 +111,24 @@ class Switches:
     member : ndarray of int, shape (switches,)
         The member, as an index into the flattened leading axes of the starts.
     time : ndarray of float, shape (switches,)
-    Time since the start of the run.
+        Time since the start of the run.
     unit : ndarray of int, shape (switches,)
         The unit that switches.
     source, target : ndarray of int, shape (switches,)
         The mode left and the mode entered.
     state : ndarray of float, shape (switches, states)
         The states just before, and before any reset.
+
+    Examples
+    --------
+    A ball that falls from 0.5 under gravity 1 lands after a time of 1:
+
+    >>> from saltus.systems import System, Unit, integrate, states
+    >>> y, v = states("y", "v")
+    >>> bounce = Unit("flight").transition("flight", "flight", falling=y, reset={v: -v})
+    >>> ball = System([y, v], [v, -1.0], interval=1.5, transitions=[bounce])
+    >>> integrate(ball, [0.5, 0.0], periods=1).switches.time
+    array([1.])
     """
 
     member: NDArray[np.int64]
@@ -122,7 +143,26 @@ class Switches:
         return len(self.time)
 
     def of(self, member: int) -> Switches:
-        """The switches of one member."""
+        """The switches of one member.
+
+        Parameters
+        ----------
+        member : int
+            Index into the flattened leading axes of the starts.
+
+        Returns
+        -------
+        Switches
+
+        Examples
+        --------
+        >>> from saltus.systems import System, Unit, integrate, states
+        >>> y, v = states("y", "v")
+        >>> bounce = Unit("flight").transition("flight", "flight", falling=y, reset={v: -v})
+        >>> ball = System([y, v], [v, -1.0], interval=3.5, transitions=[bounce])
+        >>> len(integrate(ball, [[0.5, 0.0], [8.0, 0.0]], periods=1).switches.of(0))
+        2
+        """
         mine = self.member == member
         return Switches(
             self.member[mine],
@@ -145,7 +185,7 @@ class Trajectories:
     modes : ndarray of int, shape (..., samples, units)
         The mode of each unit.
     time : ndarray of float, shape (..., samples)
-    Time since the start of the run.
+        Time since the start of the run.
     period : ndarray of float, shape (...)
         Period of the forcing, or the interval.
     end : ndarray of float, shape (..., states)
@@ -162,6 +202,14 @@ class Trajectories:
         The same as a sentence, with the time.
     switches : Switches
         The switches of all members.
+
+    Examples
+    --------
+    >>> from saltus.systems import System, integrate, states
+    >>> x, v = states("x", "v")
+    >>> run = integrate(System([x, v], [v, -x], interval=1.0), [1.0, 0.0], periods=10)
+    >>> run
+    Trajectories(samples=(10, 2), switches=0, 1 of 1 completed)
     """
 
     samples: NDArray[np.float64]
@@ -300,6 +348,19 @@ def integrate(
         If an argument does not fit; the message names it.
     DefinitionError
         If parameters make a coefficient that is not finite, or a frequency that is not positive.
+
+    Examples
+    --------
+    An oscillator from two starts, four samples a period:
+
+    >>> import numpy as np
+    >>> from saltus.systems import System, integrate, states
+    >>> x, v = states("x", "v")
+    >>> oscillator = System([x, v], [v, -x], interval=2.0 * np.pi)
+    >>> starts = [[1.0, 0.0], [2.0, 0.0]]
+    >>> run = integrate(oscillator, starts, periods=1, samples_per_period=4)
+    >>> run.samples[1, :, 0].round(6) + 0.0
+    array([ 0., -2.,  0.,  2.])
     """
     members = Members.of(system, starts, modes, parameters)
     keep = whole("periods", periods, 0, 2**53)

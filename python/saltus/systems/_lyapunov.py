@@ -44,6 +44,14 @@ class Exponents:
         Its standard error.
     status, reason : ndarray of str, shape (...)
         Ending of each trajectory, as a word and as a sentence; "completed" if it ran to its end.
+
+    Examples
+    --------
+    >>> from saltus.systems import System, lyapunov, states
+    >>> (x,) = states("x")
+    >>> found = lyapunov(System([x], [-0.5 * x], interval=1.0), [1.0], periods=100)
+    >>> found.exponents.round(6)
+    array([-0.5])
     """
 
     exponents: NDArray[np.float64]
@@ -96,6 +104,23 @@ def lyapunov(
     Returns
     -------
     Exponents
+
+    Raises
+    ------
+    ValueError, TypeError
+        If an argument does not fit; the message names it.
+
+    Examples
+    --------
+    The sum of the exponents of a damped oscillator is minus its damping:
+
+    >>> from saltus.systems import Forcing, System, lyapunov, states
+    >>> x, v = states("x", "v")
+    >>> forcing = Forcing(1.0)
+    >>> duffing = System([x, v], [v, forcing.cos - 0.2 * v - x**3], forcing=forcing)
+    >>> found = lyapunov(duffing, [0.1, 0.0], periods=100)
+    >>> round(float(found.exponents.sum()), 6)
+    -0.2
     """
     members = Members.of(system, starts, modes, parameters)
     n = len(system.states)

@@ -23,7 +23,7 @@ __all__ = ["Orbit", "find_orbit"]
 
 @dataclass(frozen=True, eq=False)
 class Orbit:
-    """A periodic orbit.
+    """A periodic orbit, as `find_orbit` gives it.
 
     Attributes
     ----------
@@ -53,6 +53,15 @@ class Orbit:
         Largest component of P(x_i) - x_(i+1).
     iterations : int
         Newton steps taken.
+
+    Examples
+    --------
+    >>> from saltus.systems import Forcing, System, find_orbit, states
+    >>> (x,) = states("x")
+    >>> forcing = Forcing(1.0)
+    >>> orbit = find_orbit(System([x], [forcing.cos - x], forcing=forcing), [0.0])
+    >>> orbit.period, orbit.stability
+    (1, 'stable')
     """
 
     period: int
@@ -127,6 +136,20 @@ def find_orbit(
     UserWarning
         If the orbit is one of a family. Newton's steps then keep the conserved quantity of the start, to
         first order in the distance between the start and the orbit.
+
+    Examples
+    --------
+    The forced oscillation of a damped oscillator:
+
+    >>> from saltus.systems import Forcing, System, find_orbit, states
+    >>> x, v = states("x", "v")
+    >>> forcing = Forcing(2.0)
+    >>> oscillator = System([x, v], [v, forcing.cos - 0.5 * v - x], forcing=forcing)
+    >>> orbit = find_orbit(oscillator, [0.0, 0.0])
+    >>> orbit.states.round(6)
+    array([[-0.3,  0.2]])
+    >>> orbit.stable
+    True
     """
     members = Members.of(system, np.atleast_2d(reals("start", start)), modes, parameters)
     if len(members.shape) != 1 or members.shape[0] == 0:

@@ -32,6 +32,11 @@ class Forcing:
     cos, sin : Expression
         cos Ωt and sin Ωt. Other phases and harmonics are sums and products of them. A second
         frequency ω takes two further states c and s, with the rates -ω s and ω c and the start (1, 0).
+
+    Examples
+    --------
+    >>> forcing = Forcing(1.0)
+    >>> twice = 2.0 * forcing.cos**2 - 1.0  # cos 2t
     """
 
     def __init__(self, frequency: ExpressionLike) -> None:
@@ -48,7 +53,15 @@ class Forcing:
 
 @dataclass(frozen=True, eq=False)
 class Transition:
-    """The end of a mode of a unit: guard, next mode and resets; made by `Unit.transition`."""
+    """The end of a mode of a unit: guard, next mode and resets; made by `Unit.transition`.
+
+    Examples
+    --------
+    >>> from saltus.systems import states
+    >>> (x,) = states("x")
+    >>> Unit("free", "contact").transition("free", "contact", rising=x).target
+    'contact'
+    """
 
     unit: Unit
     source: str
@@ -101,6 +114,19 @@ class Unit:
         Returns
         -------
         Expression, or ndarray of Expression
+
+        Raises
+        ------
+        DefinitionError
+            If a mode has no formula, or there is one for another.
+
+        Examples
+        --------
+        A force in contact alone:
+
+        >>> from saltus.systems import states
+        >>> x, v = states("x", "v")
+        >>> force = Unit("free", "contact").choose(free=0.0, contact=-50.0 * (x - 1.0))
         """
         all_modes = {**(by_mode or {}), **more}
         if set(all_modes) != set(self.modes):
@@ -147,6 +173,19 @@ class Unit:
         -------
         Transition
             To be handed to `System`.
+
+        Raises
+        ------
+        DefinitionError
+            If there is no such mode, not one guard, or a reset or guard that is no expression.
+
+        Examples
+        --------
+        A ball that bounces with restitution 0.8 on a floor at y = 0:
+
+        >>> from saltus.systems import states
+        >>> y, v = states("y", "v")
+        >>> bounce = Unit("flight").transition("flight", "flight", falling=y, reset={v: -0.8 * v})
         """
         for mode in (source, target):
             if mode not in self.modes:

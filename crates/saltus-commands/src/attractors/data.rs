@@ -1,7 +1,9 @@
 //! Data of the answer, described once.
 
 use super::{Found, ranges};
-use crate::data::{Of, about, coordinate, name, padded, parameter, values, whole, wholes, without};
+use crate::data::{
+    Of, about, coordinate, eta, name, padded, parameter, values, whole, wholes, without,
+};
 use crate::plane::Loss;
 use crate::quantities as q;
 use saltus::orbits::Exponent;
@@ -123,7 +125,11 @@ fn sections(set: Dataset, found: &Found) -> Dataset {
         bodies().flat_map(samples).collect()
     };
     let numbers = wholes(found.met().map(|(_, one)| one.identity + 1));
-    let at = found.met().map(|(row, _)| row.value);
+    let at: Vec<f64> = found.met().map(|(row, _)| row.value).collect();
+    let (each, heights) = match &found.parameter {
+        Some(parameter) => (2, eta(&found.study, Some((parameter, &at)))),
+        None => (1, eta(&found.study, None)),
+    };
     let table = |rows: &[&str], own: &[&str]| {
         Table::new("sections", rows)
             .titled("value", found.value_name("motion_"))
@@ -133,10 +139,11 @@ fn sections(set: Dataset, found: &Found) -> Dataset {
     };
     let samples_table = table(&over, &["jumper", "sample"]).only_where("z");
     found
-        .values_along(set, "motion", at.collect())
+        .values_along(set, "motion", at)
         .coordinate(q::MOTION.numbered(0, numbers.len()))
         .coordinate(q::CONNECTED_SAMPLE.numbered(1, longest))
         .variable(q::MOTION_ATTRACTOR.over(&over[..1], numbers))
+        .variable(q::ETA.over(&over[2 - each..2], heights))
         .variable(q::Z.over(&over, samples(0)))
         .variable(q::V.over(&over, samples(1)))
         .table(samples_table.in_files())

@@ -1,7 +1,7 @@
 //! Data of the answer, described once.
 
 use super::Found;
-use crate::data::{name, padded, values, whole, wholes};
+use crate::data::{eta, name, padded, values, whole, wholes};
 use crate::plane::{self, period};
 use crate::quantities as q;
 use saltus::study::{Attractor, Entry, Range};
@@ -12,7 +12,8 @@ pub(super) fn data(found: &Found) -> Dataset {
     let title = "Basins of attraction of a jumper on a plate";
     let over = [&*name(&plane.y.parameter), &*name(&plane.x.parameter)];
     let set = plane::data(title, &found.study, plane, &basins.layers)
-        .variable(q::BASIN.over(&over, basins.attractor.clone()));
+        .variable(q::BASIN.over(&over, basins.attractor.clone()))
+        .variable(q::ETA.over(&["jumper"], eta(&found.study, None)));
     tables(bodies(attractors(set, found), found), found)
 }
 

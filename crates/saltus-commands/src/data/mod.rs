@@ -62,7 +62,31 @@ pub(crate) fn parameter_of(set: Dataset, prefix: &str, parameter: &Parameter) ->
         .attribute(format!("{prefix}label"), parameter.label())
 }
 
-/// Name of the variable with the values of a parameter: `jumper_damping_ratio`.
+/// Units of height of each person (m), at each value of the parameter that changes; NaN at a value that the study does
+/// not allow.
+pub(crate) fn eta(study: &Study, along: Option<(&Parameter, &[f64])>) -> Vec<f64> {
+    let of = |study: &Study| -> Vec<f64> {
+        let gravity = study.gravity.acceleration;
+        let people = study.jumpers();
+        people
+            .iter()
+            .map(|person| person.static_compression(gravity))
+            .collect()
+    };
+    let at = |parameter: &Parameter, value: f64| match parameter.apply(study, value) {
+        Ok(study) => of(&study),
+        Err(_) => vec![f64::NAN; study.jumper.len()],
+    };
+    match along {
+        None => of(study),
+        Some((parameter, values)) => values
+            .iter()
+            .flat_map(|&value| at(parameter, value))
+            .collect(),
+    }
+}
+
+/// Name of the variable with the values of a parameter, and of the column: `jumper_damping_ratio`.
 pub(crate) fn name(parameter: &Parameter) -> String {
     parameter.key().replace('.', "_")
 }

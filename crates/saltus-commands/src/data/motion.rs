@@ -3,7 +3,7 @@
 use super::{each_jumper, each_term, wholes};
 use crate::quantities as q;
 use crate::words::phase;
-use saltus::model::{Contact, Model, Section};
+use saltus::model::{Contact, Model, Observation, Section};
 use saltus::study::{History, TrajectorySwitch};
 use saltus_results::{Dataset, Table};
 
@@ -60,27 +60,48 @@ pub(crate) fn columns(table: Table, prefix: &str, model: &Model) -> Table {
         .beside("term", each_term(model))
 }
 
-/// Observations at equal times, and their table.
-pub(crate) fn history(set: Dataset, history: &History, jumpers: usize) -> Dataset {
+/// Observations along a motion of `model`, and their table.
+pub(crate) fn history(set: Dataset, history: &History, model: &Model) -> Dataset {
     let over = ["history_time", "jumper"];
-    let states = &history.states;
-    let z: Vec<f64> = states.iter().flat_map(|s| s.z.clone()).collect();
-    let v: Vec<f64> = states.iter().flat_map(|s| s.v.clone()).collect();
-    let prf: Vec<f64> = states.iter().flat_map(|s| s.prf.clone()).collect();
-    let floor: Vec<f64> = states.iter().flat_map(|s| s.floor.clone()).collect();
+    let all = |of: fn(&Observation) -> &Vec<f64>| -> Vec<f64> {
+        history.states.iter().flat_map(|s| of(s).clone()).collect()
+    };
+    let states = || history.states.iter();
+    let base: Vec<f64> = states().map(|s| s.base).collect();
+    let phases = states().flat_map(|s| s.phase.iter().copied().map(phase));
+    // the base's own acceleration is -Omega^2 times its height
+    let square = model.scales().omega.powi(2);
+    let relative = states().flat_map(|s| {
+        let accelerations = s.floor_acceleration.iter();
+        accelerations.map(move |absolute| absolute + square * s.base)
+    });
     set.coordinate(q::HISTORY_TIME.along(history.time.clone()))
-        .variable(q::HISTORY_Z.over(&over, z))
-        .variable(q::HISTORY_V.over(&over, v))
-        .variable(q::HISTORY_PRF.over(&over, prf))
-        .variable(q::HISTORY_FLOOR.over(&over, floor))
+        .variable(q::HISTORY_Z.over(&over, all(|s| &s.z)))
+        .variable(q::HISTORY_V.over(&over, all(|s| &s.v)))
+        .variable(q::HISTORY_PHASE.spelt(&over, phases))
+        .variable(q::HISTORY_PRF.over(&over, all(|s| &s.prf)))
+        .variable(q::HISTORY_W.over(&["history_time", "term"], all(|s| &s.w)))
+        .variable(q::HISTORY_BASE.over(&over[..1], base))
+        .variable(q::HISTORY_FLOOR.over(&over, all(|s| &s.floor)))
+        .variable(q::HISTORY_FLOOR_ACCELERATION.over(&over, all(|s| &s.floor_acceleration)))
+        .variable(q::HISTORY_FLOOR_RELATIVE.over(&over, relative.collect::<Vec<f64>>()))
         .table(
             Table::new("history", &over[..1])
                 .titled("time_s", "history_time")
                 .titled("z", "history_z")
                 .titled("v", "history_v")
+                .titled("phase", "history_phase")
                 .titled("prf", "history_prf")
                 .titled("floor_m", "history_floor")
-                .beside("jumper", each_jumper(jumpers))
+                .titled("floor_acceleration", "history_floor_acceleration")
+                .titled(
+                    "floor_acceleration_relative",
+                    "history_floor_acceleration_relative",
+                )
+                .titled("base_m", "history_base")
+                .titled("w", "history_w")
+                .beside("jumper", each_jumper(model.setup().jumpers.len()))
+                .beside("term", each_term(model))
                 .in_files(),
         )
 }

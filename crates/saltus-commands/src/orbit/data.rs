@@ -1,7 +1,7 @@
 //! Data of the answer, described once.
 
 use super::{Found, search};
-use crate::data::{about, base, motion, whole};
+use crate::data::{about, base, eta, motion, whole};
 use crate::quantities as q;
 use saltus::orbits::Multiplier;
 use saltus_results::{Dataset, Table};
@@ -25,11 +25,12 @@ pub(super) fn data(found: &Found) -> Dataset {
     .variable(q::SEGMENTS.is(whole(found.segments())))
     .coordinate(q::POINT.numbered(0, points.len()));
     let set = multipliers(base(set, &found.model), &orbit.multipliers);
-    let set = motion::dimensions(set, &found.model);
+    let set = motion::dimensions(set, &found.model)
+        .variable(q::ETA.over(&["jumper"], eta(&found.study, None)));
     let set = motion::section(set, "", &["point"], &found.model, &points);
     let section = Table::new("section", &["point"]).columns(&["point"]);
     let set = set.table(motion::columns(section, "", &found.model));
-    let set = motion::history(jumpers(set, found), &seen.history, found.jumpers());
+    let set = motion::history(jumpers(set, found), &seen.history, &found.model);
     motion::switches(set, &seen.switches)
 }
 
@@ -63,6 +64,7 @@ fn jumpers(set: Dataset, found: &Found) -> Dataset {
         .variable(q::PEAK_REACTION.over(&["jumper"], seen.peak_reaction.clone()))
         .variable(q::TOUCH_DOWN_PHASE.over(&["jumper", "touch_down"], phases.collect::<Vec<f64>>()))
         .table(Table::of_document(&[
+            "eta",
             "contact_ratio",
             "peak_reaction",
             "touch_down_phase",

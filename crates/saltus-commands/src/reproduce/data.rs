@@ -5,6 +5,7 @@ use super::facts::Report;
 use crate::data::{Listed, about, coordinate, padded, texts};
 use crate::kinds;
 use crate::quantities as q;
+use crate::words::direction;
 use saltus::study::Pass;
 use saltus_config::Parameter;
 use saltus_paper::{Detail, Diagram, Met, PanelBranches};
@@ -36,7 +37,7 @@ pub(super) fn details(results: &Results) -> impl Iterator<Item = (f64, &Detail)>
     panels.filter_map(|panel| Some((panel.ratio, panel.detail.as_ref()?)))
 }
 
-/// The clouds of Fig. 2 over panel, pass, damping ratio and sample, a table for each panel.
+/// The clouds of Fig. 2 over panel, direction, damping ratio and sample, a table for each panel.
 fn fig2(results: &Results) -> Dataset {
     let panels: Vec<&Diagram> = panels(results).map(|(diagram, _)| diagram).collect();
     let (passes, rows) = panels
@@ -54,11 +55,11 @@ fn fig2(results: &Results) -> Dataset {
     let tags = texts(TAGS.into_iter().take(panels.len()));
     let damping = damping(&values);
     let value = damping.name().to_owned();
-    let over = ["panel", "pass", &value, "sample"];
+    let over = ["panel", "direction", &value, "sample"];
     let set = about("Fig. 2 of Dias & Del Prado", &results.study)
-        .header("coordinates", "base_frequency direction start_z start_v")
+        .header("coordinates", "base_frequency start_z start_v")
         .coordinate(q::PANEL.along(tags))
-        .coordinate(q::PASS.numbered(0, passes.len()))
+        .coordinate(q::DIRECTION.along(passes.iter().map(direction).collect::<Vec<String>>()))
         .coordinate(damping)
         .coordinate(q::SAMPLE.numbered(1, record))
         .variable(q::BASE_FREQUENCY.over(&over[..1], hertz));
@@ -68,7 +69,7 @@ fn fig2(results: &Results) -> Dataset {
         let own = (0..places * panels.len()).map(|place| place / places == panel);
         set.table(
             Table::new(format!("fig2{tag}"), &over)
-                .titled("pass", "pass_text")
+                .columns(&["direction"])
                 .titled("damping_ratio", over[2])
                 .titled("z_eta", "z")
                 .only_where("z")
@@ -91,9 +92,9 @@ fn damping(values: &[f64]) -> Variable {
     }
 }
 
-/// Way and first state of each pass.
+/// First state of each way through the values.
 fn passes(set: Dataset, passes: &[Pass]) -> Dataset {
-    let over = ["pass"];
+    let over = ["direction"];
     let start = |part: fn((f64, f64)) -> f64| -> Vec<f64> {
         let of = |pass: &Pass| match *pass {
             Pass::Start { z, v } => part((z, v)),
@@ -101,24 +102,8 @@ fn passes(set: Dataset, passes: &[Pass]) -> Dataset {
         };
         passes.iter().map(of).collect()
     };
-    let directions = passes.iter().map(|pass| match pass {
-        Pass::Up => "up",
-        Pass::Down => "down",
-        Pass::Start { .. } => "start",
-    });
-    let names: Vec<String> = passes.iter().map(pass_name).collect();
-    set.variable(q::DIRECTION.spelt(&over, directions))
-        .variable(q::START_Z.over(&over, start(|s| s.0)))
+    set.variable(q::START_Z.over(&over, start(|s| s.0)))
         .variable(q::START_V.over(&over, start(|s| s.1)))
-        .column(q::PASS_TEXT.over(&over, names))
-}
-
-fn pass_name(pass: &Pass) -> String {
-    match pass {
-        Pass::Up => "up".to_owned(),
-        Pass::Down => "down".to_owned(),
-        Pass::Start { z, v } => format!("start {z} {v}"),
-    }
 }
 
 /// Ranges in which cycles are stable, under every law and both readings.
@@ -141,14 +126,14 @@ fn regimes(set: Dataset, results: &Results) -> Dataset {
 fn sweeps(set: Dataset, results: &Results) -> Dataset {
     struct Row {
         ratio: f64,
-        pass: String,
+        direction: String,
         value: f64,
         met: Met,
     }
     let rows = panels(results).flat_map(|(diagram, panel)| {
         diagram.rows.iter().map(|row| Row {
             ratio: diagram.ratio,
-            pass: pass_name(&diagram.passes[row.pass]),
+            direction: direction(&diagram.passes[row.pass]),
             value: row.value,
             met: Diagram::met(row, &panel.stretches),
         })
@@ -156,7 +141,7 @@ fn sweeps(set: Dataset, results: &Results) -> Dataset {
     let rows: Vec<Row> = rows.collect();
     Listed::new(set, "sweeps", "sweep_row", &rows)
         .column("frequency_ratio", q::SWEEP_RATIO, |r| r.ratio)
-        .column("pass", q::SWEEP_PASS, |r| r.pass.clone())
+        .column("direction", q::SWEEP_DIRECTION, |r| r.direction.clone())
         .column("damping_ratio", q::SWEEP_DAMPING, |r| r.value)
         .whole("cycle", q::SWEEP_CYCLE, 0, |r| match r.met {
             Met::Cycle(period) => Some(period),

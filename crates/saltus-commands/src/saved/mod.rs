@@ -1,7 +1,9 @@
 //! A result that was kept in a folder: what was asked in it, whose methods it rests on, and whether it comes out again.
 
+mod kept;
 mod rerun;
 
+pub use kept::KeptResult;
 pub use rerun::Rerun;
 
 use crate::citations::{Citation, works};
@@ -17,6 +19,10 @@ use std::path::{Path, PathBuf};
 
 /// Name of the study in the folder of a result.
 const STUDY: &str = "study.toml";
+
+/// What the manifest says of the answer: its text for people, and why a part of it is missing.
+pub(crate) const SUMMARY: &str = "summary";
+pub(crate) const SHORTFALL: &str = "shortfall";
 
 /// Advice where a folder is not as it was.
 const AGAIN: &str = "put the files back as they were, or compute the result anew";
@@ -88,7 +94,7 @@ impl SavedResult {
         let shown = path(&self.folder);
         Err(CommandError::work(
             format!(
-                "`{shown}` is not as it was written, so comparing with it means nothing:{list}"
+                "`{shown}` is not as it was written, so it is not the result that was asked for:{list}"
             ),
             AGAIN,
         ))

@@ -1,7 +1,7 @@
 //! Data of the answer, described once.
 
 use super::Found;
-use crate::data::{about, base, motion, padded, whole};
+use crate::data::{about, base, eta, motion, padded, whole};
 use crate::quantities as q;
 use crate::status;
 use saltus::model::EnergyBalance;
@@ -15,9 +15,10 @@ pub(super) fn data(found: &Found) -> Dataset {
         .attribute(q::STATUS_TEXT.name, status::text(&end.status, Some(omega)))
         .variable(q::PERIODS_RUN.is(whole(end.periods)))
         .variable(q::STEPS.is(whole(end.steps)));
-    let set = motion::dimensions(base(set, &found.model), &found.model);
+    let set = motion::dimensions(base(set, &found.model), &found.model)
+        .variable(q::ETA.over(&["jumper"], eta(&found.study, None)));
     let set = energy(jumpers(section(set, found), found), found);
-    let set = motion::history(set, &trajectory.history, found.jumpers());
+    let set = motion::history(set, &trajectory.history, &found.model);
     motion::switches(set, &trajectory.switches)
 }
 
@@ -42,7 +43,11 @@ fn jumpers(set: Dataset, found: &Found) -> Dataset {
     set.variable(q::PERIOD_CONTACT_RATIO.over(&["period", "jumper"], each.collect::<Vec<f64>>()))
         .variable(q::MEAN_CONTACT_RATIO.over(&["jumper"], found.contact_ratio()))
         .variable(q::PEAK_REACTION.over(&["jumper"], found.peak_reaction()))
-        .table(Table::of_document(&["mean_contact_ratio", "peak_reaction"]))
+        .table(Table::of_document(&[
+            "eta",
+            "mean_contact_ratio",
+            "peak_reaction",
+        ]))
 }
 
 type Part = fn(&EnergyBalance) -> f64;

@@ -25,17 +25,23 @@ const FEW: usize = 3;
 /// Periods shown of each where the panels are small.
 const FEW_PERIODS: f64 = 6.0;
 
-/// Periods that the time history covers, begun ones too.
+/// Periods from the beginning of the time history on, begun ones too.
 fn periods(found: &Found) -> usize {
-    found
-        .trajectory
-        .history
-        .time
-        .len()
-        .div_ceil(super::POINTS as usize)
+    let (times, table) = (&found.trajectory.history.time, &found.study.simulate);
+    if table.times.is_none() {
+        return times.len().div_ceil(table.samples_per_period as usize);
+    }
+    let begun = |first: &f64| (first / found.model.scales().period()).floor() as usize;
+    let all = found.trajectory.section.len();
+    times
+        .first()
+        .map_or(0, |first| all.saturating_sub(begun(first)))
 }
 
 fn covered(found: &Found) -> String {
+    if found.study.simulate.times.is_some() {
+        return format!("{} times", found.trajectory.history.time.len());
+    }
     match periods(found) {
         1 => "last period".to_owned(),
         periods => format!("last {periods} periods"),

@@ -11,15 +11,9 @@ use crate::failure::CommandError;
 use crate::status;
 use saltus::hybrid::Status;
 use saltus::model::Model;
-use saltus::study::Trajectory;
-use saltus_config::Study;
+use saltus::study::{Instants, Trajectory, simulate_at};
+use saltus_config::{SimulateTable, Study};
 use saltus_results::Dataset;
-
-/// Periods of the time history at most: what a figure can show, and little memory however long the run.
-const HISTORY: u32 = 20;
-
-/// Points of the time history per period: more than a figure shows.
-const POINTS: u32 = 400;
 
 /// A run with what it ran.
 struct Found {
@@ -37,11 +31,8 @@ fn integrate(study: &Study, context: &RunContext) -> Result<Found, CommandError>
     let model = study.setup().model_with_energy()?;
     let start = model.start(study.start.z, study.start.v);
     let periods = study.simulate.periods;
-    let history = HISTORY.min(periods - study.simulate.transient.min(periods));
-    let work = || {
-        let (periods, history) = (periods.into(), history.into());
-        saltus::study::simulate(&model, &start, periods, history, POINTS, &control)
-    };
+    let instants = instants(&study.simulate, &model)?;
+    let work = || simulate_at(&model, &start, periods.into(), instants, &control);
     let trajectory = context.follow(periods.into(), "periods", &control.done, work)?;
     context.check()?;
     Ok(Found {
@@ -49,6 +40,26 @@ fn integrate(study: &Study, context: &RunContext) -> Result<Found, CommandError>
         model,
         trajectory,
     })
+}
+
+/// Instants of the time history.
+fn instants(table: &SimulateTable, model: &Model) -> Result<Instants, CommandError> {
+    let Some(times) = &table.times else {
+        let kept = table.periods - table.transient.min(table.periods);
+        return Ok(Instants::Last {
+            periods: table.history.min(kept).into(),
+            points: table.samples_per_period,
+        });
+    };
+    let end = f64::from(table.periods) * model.scales().period();
+    match times.last() {
+        // the end itself, rounded
+        Some(&last) if last > end * (1.0 + f64::EPSILON) => Err(CommandError::refused(
+            format!("simulate.times: {last} s lies after the end of the run, {end} s"),
+            "simulate.periods says how long it is",
+        )),
+        _ => Ok(Instants::At(times.clone())),
+    }
 }
 
 impl Answer for Found {

@@ -1,11 +1,12 @@
 //! Data of the answer, described once.
 
 use super::{Found, Row};
-use crate::data::{about, coordinate, each_number, name, padded, parameter, wholes};
+use crate::data::{about, coordinate, each_number, eta, name, padded, parameter, wholes};
 use crate::quantities as q;
 use crate::status;
+use crate::words::direction;
 use saltus::orbits::{Exponent, MotionKind};
-use saltus::study::{Pass, SweepRow};
+use saltus::study::SweepRow;
 use saltus_results::{Dataset, Table};
 
 pub(super) fn data(found: &Found) -> Dataset {
@@ -21,28 +22,28 @@ pub(super) fn data(found: &Found) -> Dataset {
     tables(exponents(set, found), &name(&found.parameter), found)
 }
 
-/// The passes, with the way of each and its first state.
+/// The ways through the values, with the first state of each.
 fn passes(set: Dataset, found: &Found) -> Dataset {
-    let (over, passes) = (["pass"], &found.sweep.passes);
+    let (over, passes) = (["direction"], &found.sweep.passes);
     let start = |part: usize| -> Vec<f64> {
         let starts = passes.iter().map(|pass| found.start(pass)[part]);
         starts.collect()
     };
-    set.header("coordinates", "direction start_z start_v")
-        .coordinate(q::PASS.numbered(0, passes.len()))
-        .variable(q::DIRECTION.spelt(&over, passes.iter().map(direction)))
+    let directions: Vec<String> = passes.iter().map(direction).collect();
+    set.header("coordinates", "start_z start_v")
+        .coordinate(q::DIRECTION.along(directions))
         .variable(q::START_Z.over(&over, start(0)))
         .variable(q::START_V.over(&over, start(1)))
         .table(
             Table::new("passes", &over)
-                .columns(&["pass", "direction", "start_z", "start_v"])
+                .columns(&["direction", "start_z", "start_v"])
                 .in_document(),
         )
 }
 
 fn samples(set: Dataset, found: &Found) -> Dataset {
     let (value, record) = (name(&found.parameter), found.sweep.record as usize);
-    let over = ["pass", &value, "jumper", "sample"];
+    let over = ["direction", &value, "jumper", "sample"];
     let jumpers = found.jumpers();
     // a row without a model has no samples of anybody
     let each = |of: fn(&SweepRow) -> &Vec<Vec<f64>>| -> Vec<f64> {
@@ -54,7 +55,9 @@ fn samples(set: Dataset, found: &Found) -> Dataset {
     };
     let ratios = found.rows.iter();
     let ratios = ratios.flat_map(|row| padded(&row.run.contact_ratio, jumpers));
-    set.variable(q::Z.over(&over, each(|row| &row.z)))
+    let heights = eta(&found.study, Some((&found.parameter, &found.sweep.values)));
+    set.variable(q::ETA.over(&over[1..3], heights))
+        .variable(q::Z.over(&over, each(|row| &row.z)))
         .variable(q::V.over(&over, each(|row| &row.v)))
         .variable(q::CONTACT_RATIO.over(&over[..3], ratios.collect::<Vec<f64>>()))
 }
@@ -62,7 +65,7 @@ fn samples(set: Dataset, found: &Found) -> Dataset {
 /// The kind of motion at each value, and how its run ended.
 fn motions(set: Dataset, found: &Found) -> Dataset {
     let (value, rows) = (name(&found.parameter), found.rows.iter());
-    let over = ["pass", &value];
+    let over = ["direction", &value];
     let confidence = |row: &Row| row.label.as_ref().and_then(|label| label.confidence);
     let confidence = rows.clone().map(|row| confidence(row).unwrap_or(f64::NAN));
     let status = rows.clone().map(Row::status);
@@ -76,7 +79,7 @@ fn motions(set: Dataset, found: &Found) -> Dataset {
 
 fn exponents(set: Dataset, found: &Found) -> Dataset {
     let (value, most) = (name(&found.parameter), found.most_exponents());
-    let over = ["pass", &value, "exponent_number"];
+    let over = ["direction", &value, "exponent_number"];
     let each = |of: fn(&Exponent) -> f64| -> Vec<f64> {
         let rows = found.rows.iter();
         let rows = rows.map(|row| row.exponents.iter().map(of).collect::<Vec<f64>>());
@@ -91,7 +94,7 @@ fn exponents(set: Dataset, found: &Found) -> Dataset {
 fn tables(set: Dataset, value: &str, found: &Found) -> Dataset {
     let row = |rows: &[&str], own: &[&str]| {
         Table::new("rows", rows)
-            .columns(&["pass", "direction", "start_z", "start_v"])
+            .columns(&["direction", "start_z", "start_v"])
             .titled("value", value)
             .columns(own)
             .columns(&["contact_ratio", "label", "period", "confidence"])
@@ -101,30 +104,21 @@ fn tables(set: Dataset, value: &str, found: &Found) -> Dataset {
             .beside("exponent_number", each_number(found.most_exponents()))
     };
     set.table(
-        Table::new("sweep", &["pass", value, "jumper", "sample"])
-            .columns(&["pass"])
+        Table::new("sweep", &["direction", value, "jumper", "sample"])
+            .columns(&["direction"])
             .titled("value", value)
             .columns(&["jumper", "sample", "z", "v"])
             .only_where("z")
             .in_files(),
     )
-    .table(row(&["pass", value, "jumper"], &["jumper"]).in_files())
-    .table(row(&["pass", value], &["z", "v"]).in_document())
+    .table(row(&["direction", value, "jumper"], &["jumper"]).in_files())
+    .table(row(&["direction", value], &["z", "v"]).in_document())
 }
 
 /// All kinds of motion that a row may have.
 pub(super) fn labels() -> &'static [&'static str] {
     // the first of the words is that of a row without one
     &q::LABEL.words[1..]
-}
-
-/// Word for a pass.
-pub(super) fn direction(pass: &Pass) -> &'static str {
-    match pass {
-        Pass::Up => "up",
-        Pass::Down => "down",
-        Pass::Start { .. } => "start",
-    }
 }
 
 impl Found {

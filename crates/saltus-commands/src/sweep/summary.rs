@@ -1,7 +1,8 @@
 //! Summary of `saltus sweep` for people.
 
-use super::data::{direction, labels};
+use super::data::labels;
 use super::{Found, Row};
+use crate::words::direction;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -18,7 +19,9 @@ pub(super) fn text(found: &Found) -> String {
     );
     for (index, pass) in sweep.passes.iter().enumerate() {
         let [z, v] = found.start(pass);
-        let name = format!("{} from [{z}, {v}]", direction(pass));
+        let way = direction(pass);
+        let word = way.split(' ').next().unwrap_or_default();
+        let name = format!("{word} from [{z}, {v}]");
         let rows = || found.rows_of(index);
         // writing to a string cannot fail
         let _ = writeln!(text, "  {name:<18} {}", tally(rows()));

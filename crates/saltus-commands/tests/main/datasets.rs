@@ -149,7 +149,7 @@ fn a_sweep_is_a_block_with_every_row_at_its_value() {
         texts[0].contains("damp") && texts[1] == "completed",
         "{texts:?}"
     );
-    assert_eq!(set.get("status").unwrap().flag_meanings()[4].1, "no_model");
+    assert_eq!(set.get("status").unwrap().flag_meanings()[4].1, "no-model");
 }
 
 #[test]

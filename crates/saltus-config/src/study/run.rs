@@ -60,14 +60,37 @@ pub struct SimulateTable {
     /// Of these, first periods left out of figures (-, a whole number), such as 0.
     #[garde(range(min = 0, max = 10_000_000))]
     pub transient: u32,
+    /// Last periods that the time history covers (-, a whole number), such as 20; at most those that are not left out.
+    #[garde(range(min = 1, max = 100_000))]
+    pub history: u32,
+    /// Points of the time history in each period, at equal times (-, a whole number), such as 400.
+    #[garde(range(min = 1, max = 1_000_000))]
+    pub samples_per_period: u32,
+    /// Times of the time history since the start (s), ascending, such as [0.0, 0.05, 0.1]; instead of `history` and
+    /// `samples_per_period`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    // a longer list would not fit in a study file
+    #[garde(
+        length(min = 1, max = 100_000),
+        inner(inner(range(min = 0.0, max = 1e13), custom(finite)))
+    )]
+    #[schemars(
+        with = "Vec<f64>",
+        length(min = 1, max = 100_000),
+        inner(range(min = 0.0, max = 1e13))
+    )]
+    pub times: Option<Vec<f64>>,
 }
 
 impl Default for SimulateTable {
-    /// All of a run that is long enough to settle.
+    /// All of a run that is long enough to settle, and of its history what a figure can show.
     fn default() -> Self {
         Self {
             periods: 100,
             transient: 0,
+            history: 20,
+            samples_per_period: 400,
+            times: None,
         }
     }
 }

@@ -116,6 +116,9 @@ impl Sheet {
         if let Some(table) = key.strip_suffix(".values") {
             list_values(&mut study, table);
         }
+        if key == "simulate.times" {
+            study.simulate.times = Some(vec![0.0, 0.5]);
+        }
         Self {
             lines: study.to_toml().lines().map(str::to_owned).collect(),
         }
@@ -234,7 +237,9 @@ fn is_whole(key: &str) -> bool {
         "exponent",
         "exponents",
         "exponent_periods",
+        "history",
         "replicas",
+        "samples_per_period",
         "points",
         "doublings",
         "cloud",
@@ -452,6 +457,10 @@ const CONTRADICTIONS: &[(&str, &str)] = &[
         "basins.y.values.2 = 3.0: a value below the one before it, 1.0",
     ),
     ("attractors.values=[-1, 0.2]", "attractors.values.0 = -1.0"),
+    (
+        "simulate.times=[0.1, 0.1]",
+        "simulate.times.1 = 0.1: a time after the one before it, 0.1",
+    ),
     ("sweep.parameter=jumper.1.mass", "there is no jumper.1"),
     (
         "sweep.parameter=plate.modes",

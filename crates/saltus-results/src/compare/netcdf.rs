@@ -1,8 +1,9 @@
 //! Datasets, variable by variable.
 
 use super::Difference;
+use crate::dataset::open::group;
 use hdf5_reader::messages::datatype::Datatype;
-use hdf5_reader::{Attribute, Dataset, H5Type, Hdf5File, OpenOptions};
+use hdf5_reader::{Attribute, Dataset, H5Type};
 use std::fs;
 use std::path::Path;
 
@@ -45,10 +46,7 @@ struct Contents {
 }
 
 fn contents(bytes: Vec<u8>) -> hdf5_reader::error::Result<Contents> {
-    // A damaged file may claim any size; deflate packs no more than 1032 bytes into one.
-    let most = bytes.len().saturating_mul(1032);
-    let options = OpenOptions::default().with_max_read_bytes(most);
-    let root = Hdf5File::from_vec_with_options(bytes, options)?.root_group()?;
+    let root = group(bytes)?;
     Ok(Contents {
         attributes: root.attributes()?,
         arrays: root.datasets()?,

@@ -26,6 +26,7 @@
 
 mod check;
 mod file;
+pub(crate) mod open;
 
 use crate::{ResultsError, Table};
 
@@ -192,6 +193,17 @@ impl Dataset {
         file::encode(self)
     }
 
+    /// The dataset in the bytes of a file that [`to_bytes`](Self::to_bytes) made: arrays, attributes, flags and fill
+    /// values to the bit and in their order. Tables are in no such file.
+    ///
+    /// # Errors
+    /// [`ResultsError::Unreadable`] if the bytes are no such file.
+    pub fn from_bytes(bytes: Vec<u8>) -> Result<Self, ResultsError> {
+        open::decode(bytes).map_err(|error| ResultsError::Unreadable {
+            reason: error.to_string(),
+        })
+    }
+
     /// Whether all parts fit each other, for who takes them from memory.
     ///
     /// # Errors
@@ -321,8 +333,7 @@ impl Variable {
     #[must_use]
     pub fn words(mut self, words: &'static [&'static str]) -> Self {
         self.words = words;
-        let meanings = (0..).zip(words.iter().map(|word| word.replace('-', "_")));
-        self.flags(meanings)
+        self.flags((0..).zip(words.iter().copied()))
     }
 
     /// The whole number that stands for no value in tables and documents, such as the period 0. Files of arrays keep it

@@ -168,6 +168,43 @@ fn values_come_back_to_the_bit() {
 }
 
 #[test]
+fn a_file_reads_back_as_the_dataset_that_it_was_made_of() {
+    let made = dataset().variable(
+        Variable::new("filled", &["layer"], vec![4_i32, -7])
+            .fill(-7)
+            .flags([(4, "four"), (-7, "none")]),
+    );
+    let read = Dataset::from_bytes(made.clone().to_bytes().unwrap()).unwrap();
+    assert_eq!(read.dimensions(), made.dimensions());
+    assert!(read.attributes().eq(made.attributes()));
+    let names = |set: &Dataset| -> Vec<String> {
+        let names = set.variables().iter().map(|v| v.name().to_owned());
+        names.collect()
+    };
+    assert_eq!(names(&read), names(&made));
+    for (one, other) in made.variables().iter().zip(read.variables()) {
+        // a NaN is not equal to itself, and its bits were compared above
+        let told = |values: &Values| format!("{values:?}");
+        assert_eq!(told(one.values()), told(other.values()), "{}", one.name());
+        assert_eq!(one.dimensions(), other.dimensions());
+        assert_eq!(one.attributes(), other.attributes());
+        assert_eq!(one.flag_meanings(), other.flag_meanings());
+        assert_eq!(one.fill_value(), other.fill_value());
+        assert_eq!(
+            made.is_coordinate(one.name()),
+            read.is_coordinate(one.name())
+        );
+    }
+    assert_eq!(read.to_bytes().unwrap(), made.to_bytes().unwrap());
+    for damaged in [vec![], b"\x89HDF\r\n\x1a\n".to_vec(), vec![0; 4096]] {
+        assert!(matches!(
+            Dataset::from_bytes(damaged),
+            Err(ResultsError::Unreadable { .. })
+        ));
+    }
+}
+
+#[test]
 fn attributes_say_what_numbers_mean() {
     let file = Hdf5File::from_bytes(&dataset().to_bytes().unwrap()).unwrap();
     let root = file.root_group().unwrap();

@@ -28,8 +28,17 @@ pub struct Observation {
     pub v: Vec<f64>,
     /// Plate reaction force on each body, in units of its weight; 0 in flight.
     pub prf: Vec<f64>,
+    /// Whether each body is on the floor.
+    pub phase: Vec<Contact>,
+    /// Amplitude of each transverse term over the thickness, relative to the base.
+    pub w: Vec<f64>,
     /// Displacement of the plate under each body, base motion included (m).
     pub floor: Vec<f64>,
+    /// Acceleration of the plate under each body, base motion included (m/s^2):
+    /// sum_j psi_j r_j'' - A_b Omega^2 cos(Omega t).
+    pub floor_acceleration: Vec<f64>,
+    /// Displacement of the base (m), A_b cos(Omega t).
+    pub base: f64,
 }
 
 impl Model {
@@ -149,11 +158,24 @@ impl Model {
         let floor = (0..self.layout.jumpers)
             .map(|i| self.floor(i, x) * self.scales.length)
             .collect();
+        let base = self.setup.base.amplitude * x[self.layout.len()];
+        let accelerations = self.setup.jumpers.iter().map(|jumper| {
+            let psi = self.setup.plate.mode_shape(jumper.x, jumper.y);
+            let terms = psi.iter().zip(&self.plate_acceleration);
+            let plate: f64 = terms
+                .map(|(psi, node)| psi * nodes[self.system.index(*node)])
+                .sum();
+            (plate - base / self.scales.length) * self.scales.acceleration()
+        });
         Observation {
+            floor_acceleration: accelerations.collect(),
             z: section.z,
             v: section.v,
             prf,
+            phase: section.phase,
+            w: section.w,
             floor,
+            base,
         }
     }
 

@@ -50,4 +50,4 @@ pub use settle::{Settled, settle};
 pub use starts::Starts;
 pub use survival::Survival;
 pub use sweep::{Pass, Sweep, SweepRow, sweep, sweep_many};
-pub use trajectory::{History, Trajectory, TrajectorySwitch, simulate};
+pub use trajectory::{History, Instants, Trajectory, TrajectorySwitch, simulate, simulate_at};

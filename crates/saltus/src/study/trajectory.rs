@@ -20,13 +20,27 @@ pub struct TrajectorySwitch {
     pub into: Option<Contact>,
 }
 
-/// Observations at equal times.
+/// Observations along a trajectory.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
     /// Times since the start (s).
     pub time: Vec<f64>,
     /// Observation at each.
     pub states: Vec<Observation>,
+}
+
+/// Instants of a time history.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Instants {
+    /// Equal times in the last periods, from the beginning of each.
+    Last {
+        /// Periods covered.
+        periods: u64,
+        /// Points in each.
+        points: u32,
+    },
+    /// These times since the start (s), rising; those after the end of the run are left out.
+    At(Vec<f64>),
 }
 
 /// Everything about one trajectory.
@@ -36,10 +50,11 @@ pub struct Trajectory {
     pub section: Vec<Section>,
     /// Switches in time order.
     pub switches: Vec<TrajectorySwitch>,
-    /// Time history of the last periods asked for.
+    /// Time history at the instants asked for.
     pub history: History,
-    /// Largest plate reaction force on each body over the time history, in units of its weight; from the dense
-    /// output, so it does not depend on the points of the history. None if the run ended before it.
+    /// Largest plate reaction force on each body, in units of its weight, from the period in which the time history
+    /// begins on; from the dense output, so it does not depend on the points of the history. None if the run ended
+    /// before it.
     pub peak_reaction: Vec<f64>,
     /// Part of the time each body spent on the floor, period by period.
     pub contact_ratio: Vec<Vec<f64>>,
@@ -62,7 +77,35 @@ pub fn simulate(
     points: u32,
     control: &Control,
 ) -> Result<Trajectory, StudyError> {
+    let instants = Instants::Last {
+        periods: history,
+        points,
+    };
+    simulate_at(model, start, periods, instants, control)
+}
+
+/// As [`simulate`], with the time history at `instants`: states of the solution's own polynomials, not of an
+/// interpolation between steps.
+///
+/// # Errors
+/// As [`simulate`].
+pub fn simulate_at(
+    model: &Model,
+    start: &Point,
+    periods: u64,
+    instants: Instants,
+    control: &Control,
+) -> Result<Trajectory, StudyError> {
     model.check_step(&control.options)?;
+    let omega = model.scales().omega;
+    let from = match &instants {
+        Instants::Last {
+            periods: history, ..
+        } => periods.saturating_sub(*history),
+        Instants::At(times) => times.first().map_or(periods, |first| {
+            (first * omega / model.system().period()).floor() as u64
+        }),
+    };
     let bodies = model.setup().jumpers.len();
     let task = Recorder {
         model,
@@ -75,8 +118,8 @@ pub fn simulate(
             start: start.clone(),
             periods,
         }),
-        from: periods.saturating_sub(history),
-        points,
+        from,
+        instants,
         next: 0,
         before: start.clone(),
         out: Trajectory {
@@ -114,10 +157,9 @@ struct Recorder<'a> {
     segment: Option<Segment>,
     /// First period of the history.
     from: u64,
-    /// Points per period.
-    points: u32,
-    /// Next point within the period.
-    next: u32,
+    instants: Instants,
+    /// Number of the next instant: within the period, or among the times.
+    next: usize,
     before: Point,
     out: Trajectory,
 }
@@ -125,6 +167,21 @@ struct Recorder<'a> {
 impl Recorder<'_> {
     fn seconds(&self, period: u64, time: f64) -> f64 {
         (period as f64 * self.model.system().period() + time) / self.model.scales().omega
+    }
+
+    /// The next instant: time within the period of `step`, in units of the model, and time since the start (s).
+    fn instant(&self, step: &Step<'_>) -> Option<(f64, f64)> {
+        let period = self.model.system().period();
+        match &self.instants {
+            Instants::Last { points, .. } => (self.next < *points as usize).then(|| {
+                let within = self.next as f64 * (period / f64::from(*points));
+                (within, self.seconds(step.period, within))
+            }),
+            Instants::At(times) => times.get(self.next).map(|&time| {
+                let within = time * self.model.scales().omega - step.period as f64 * period;
+                (within, time)
+            }),
+        }
     }
 }
 
@@ -160,7 +217,9 @@ impl Task for Recorder<'_> {
             .energy
             .extend(self.model.energy_balance(&self.before, &point));
         self.before = point;
-        self.next = 0;
+        if matches!(self.instants, Instants::Last { .. }) {
+            self.next = 0;
+        }
         true
     }
 
@@ -191,17 +250,15 @@ impl Task for Recorder<'_> {
         if step.period < self.from {
             return;
         }
-        let spacing = self.model.system().period() / f64::from(self.points);
         let mut x = vec![0.0; self.model.system().state_len()];
         // Half open like the steps themselves: each point belongs to one step.
-        while self.next < self.points {
-            let since = f64::from(self.next) * spacing - step.time;
+        while let Some((within, time)) = self.instant(step) {
+            let since = within - step.time;
             if since >= step.length {
                 break;
             }
             step.state(since.max(0.0), &mut x);
             let seen = self.model.observe(&mut self.evaluator, step.modes, &x);
-            let time = self.seconds(step.period, f64::from(self.next) * spacing);
             self.out.history.time.push(time);
             self.out.history.states.push(seen);
             self.next += 1;
@@ -214,6 +271,16 @@ impl Task for Recorder<'_> {
     }
 
     fn end(&mut self, end: End) -> Option<Segment> {
+        // steps are half open, and the end of the run belongs to none
+        if let Instants::At(times) = &self.instants
+            && let Some(&time) = times.get(self.next)
+            && (self.seconds(end.periods, 0.0) - time).abs() <= f64::EPSILON * time
+        {
+            let (modes, x) = (&end.point.modes, &end.point.x);
+            self.out.history.time.push(time);
+            let seen = self.model.observe(&mut self.evaluator, modes, x);
+            self.out.history.states.push(seen);
+        }
         self.out.end = end;
         None
     }

@@ -7,9 +7,13 @@ use saltus::hybrid::{
     End, Method, Mode as ContactMode, Options, Point, Sample, Segment, Status, Step, Switch,
     SwitchKind, Task, integrate, record,
 };
-use saltus::model::{Contact, EnergyBalance, Inertia, Model, ModelError, Section, Setup};
+use saltus::model::{
+    Contact, EnergyBalance, Inertia, Model, ModelError, Observation, Section, Setup,
+};
 use saltus::physics::{ContactLaw, InPlaneBasis, Jumper, Mode, ModeSet};
-use saltus::study::{Control, Pass, StudyError, Sweep, SweepRow, Trajectory, simulate, sweep};
+use saltus::study::{
+    Control, Instants, Pass, StudyError, Sweep, SweepRow, Trajectory, simulate, simulate_at, sweep,
+};
 
 fn with(method: Method) -> Control {
     Control {
@@ -72,6 +76,90 @@ fn worst(a: &Trajectory, b: &Trajectory, sign: &[f64]) -> f64 {
         .zip(&b.section)
         .map(|(a, b)| difference(a, b, sign))
         .fold(0.0, f64::max)
+}
+
+// ---------------------------------------------------------------- history
+
+/// Half the distance over which differences are taken (s): short beside the plate's own motion, and long enough that
+/// rounding does not show.
+const HALF: f64 = 2e-4;
+
+#[test]
+fn a_history_has_the_accelerations_that_its_positions_have() {
+    for inertia in [Inertia::Condensed, Inertia::SlowManifold, Inertia::Full] {
+        let setup = Setup {
+            inertia,
+            ..two_people(0.2, 0.9)
+        };
+        let model = setup.model().unwrap();
+        let (start, period) = (model.start(3.0, 2.0), model.scales().period());
+        let centres = || (1..150).map(|i| (1.0 + f64::from(i) / 50.0) * period);
+        let times = centres().flat_map(|t| [t - HALF, t, t + HALF]).collect();
+        let instants = Instants::At(times);
+        let run = simulate_at(&model, &start, 5, instants, &taylor(1e-13)).unwrap();
+        let (states, gravity) = (&run.history.states, setup.gravity);
+        assert_eq!(states.len(), 3 * centres().count());
+        let second = |of: &dyn Fn(&Observation) -> f64, at: usize| {
+            let [a, b, c] = [0, 1, 2].map(|i| of(&states[3 * at + i]));
+            (a - 2.0 * b + c) / HALF.powi(2)
+        };
+        let (mut checked, mut flights) = (0, 0);
+        for (at, time) in centres().enumerate() {
+            if run
+                .switches
+                .iter()
+                .any(|s| (s.time - time).abs() < 2.0 * HALF)
+            {
+                continue;
+            }
+            let seen = &states[3 * at + 1];
+            for (i, scale) in model.scales().jumpers.iter().enumerate() {
+                // Newton's law of the body: nothing but its weight in flight
+                let body = second(&|s| s.z[i] * scale.position, at);
+                let force = gravity * (seen.prf[i] - 1.0);
+                assert!(
+                    (body - force).abs() < 2e-3 * gravity,
+                    "{inertia:?}: {body} {force}"
+                );
+                flights += u32::from(seen.phase[i] == Contact::Flight);
+                assert_eq!(seen.phase[i] == Contact::Flight, seen.prf[i] == 0.0);
+                // the floor is the plate's terms and the base
+                let psi = setup
+                    .plate
+                    .mode_shape(setup.jumpers[i].x, setup.jumpers[i].y);
+                let plate: f64 = psi.iter().zip(&seen.w).map(|(psi, w)| psi * w).sum();
+                let height = plate * setup.plate.thickness + seen.base;
+                assert!((height - seen.floor[i]).abs() < 1e-14);
+                let floor = second(&|s| s.floor[i], at);
+                let found = seen.floor_acceleration[i];
+                assert!((floor - found).abs() < 0.01, "{inertia:?}: {floor} {found}");
+                checked += 1;
+            }
+            let base = setup.base.amplitude * (model.scales().omega * time).cos();
+            assert!((seen.base - base).abs() < 1e-12);
+        }
+        assert!(checked > 250 && flights > 50, "{checked} {flights}");
+    }
+}
+
+#[test]
+fn times_of_a_history_are_the_same_bits_as_equal_ones() {
+    let model = two_people(0.3, 1.0).model().unwrap();
+    let start = model.start(3.0, 2.0);
+    let equal = simulate(&model, &start, 4, 2, 7, &taylor(1e-10)).unwrap();
+    let instants = Instants::At(equal.history.time.clone());
+    let listed = simulate_at(&model, &start, 4, instants, &taylor(1e-10)).unwrap();
+    assert_eq!(listed.history.time, equal.history.time);
+    for (a, b) in listed.history.states.iter().zip(&equal.history.states) {
+        // a time is divided by the period, which rounds
+        assert!((a.z[0] - b.z[0]).abs() < 1e-12 && (a.w[0] - b.w[0]).abs() < 1e-12);
+    }
+    assert_eq!(listed.peak_reaction, equal.peak_reaction);
+    let end = 4.0 * model.scales().period();
+    let instants = Instants::At(vec![0.0, end, end + 1.0]);
+    let ends = simulate_at(&model, &start, 4, instants, &taylor(1e-10)).unwrap();
+    assert_eq!(ends.history.time, [0.0, end]);
+    assert_eq!(ends.history.states[1].z, ends.section[3].z);
 }
 
 // ---------------------------------------------------------------- energy

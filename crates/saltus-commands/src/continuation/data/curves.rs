@@ -94,7 +94,7 @@ fn curve_points(set: Dataset, found: &Found, second: &Parameter) -> Dataset {
     let rows = rows.titled("kind", "curve_point_kind");
     let records = Table::new("curve_points", &over).titled("curve", "curve_number");
     let records = records.titled("label", "curve_label");
-    set.table(rest(rows, both.map(Parameter::key)).in_files())
+    set.table(rest(rows, both.map(name)).in_files())
         .table(rest(records, ["value", "second_value"].map(str::to_owned)).in_document())
 }
 

@@ -6,7 +6,7 @@ mod specials;
 
 use super::Found;
 use super::view::Seen;
-use crate::data::{about, in_unit_of, motion, name, padded, parameter, texts, values, wholes};
+use crate::data::{about, eta, in_unit_of, motion, name, padded, parameter, texts, values, wholes};
 use crate::quantities as q;
 use saltus::model::Section;
 use saltus::orbits::{BranchWithOrigin, Multiplier, Point, Special, Stability};
@@ -22,7 +22,9 @@ pub(super) fn data(found: &Found) -> Dataset {
         ))
         .variable(in_unit_of(&question.parameter, q::RANGE_TO.is(table.to)))
         .variable(q::COMPLETE.is(found.complete()));
+    let also = format!("m n branch number {}", name(&question.parameter));
     let set = motion::dimensions(set, &found.model)
+        .header("coordinates", also)
         .coordinate(q::PLACE.numbered(0, found.places()))
         .ragged("place");
     let set = points(set, found);
@@ -53,7 +55,8 @@ fn points(set: Dataset, found: &Found) -> Dataset {
         let flags = all.iter().map(|at| of(at.point));
         quantity.over(&over, flags.collect::<Vec<bool>>())
     };
-    let along = all.iter().map(|at| at.point.parameter).collect();
+    let along: Vec<f64> = all.iter().map(|at| at.point.parameter).collect();
+    let heights = eta(&found.study, Some((parameter, &along)));
     let sequences = all.iter().map(|at| at.seen.sequence.as_str());
     let set = set
         .coordinate(q::BRANCH_POINT.numbered(0, all.len()))
@@ -66,6 +69,7 @@ fn points(set: Dataset, found: &Found) -> Dataset {
             point.orbit.stability() == Stability::Neutral
         }))
         .variable(whole(q::OUTSIDE, |at| at.point.outside))
+        .variable(q::ETA.over(&["point", "jumper"], heights))
         .variable(q::SEQUENCE.over(&over, texts(sequences)));
     let set = stability(multipliers(set, &all), &all);
     let sections = found.sections(all.iter().map(|at| at.seen));
@@ -130,7 +134,7 @@ fn point_tables(set: Dataset, found: &Found) -> Dataset {
     let rows = Table::new("branches", &["point", "place"])
         .columns(&["branch", "origin"])
         .titled("point", "number")
-        .titled(parameter.key(), name(parameter))
+        .columns(&[&name(parameter)])
         .columns(&["period"])
         .titled("stable", "stable_cell")
         .columns(&["outside"]);
@@ -161,7 +165,7 @@ fn branches(set: Dataset, found: &Found) -> Dataset {
         let ends = limbs.iter().map(|limb| limb.branch.ends[which].to_string());
         quantity.over(&over, ends.collect::<Vec<String>>())
     };
-    let key = parameter.key();
+    let key = name(parameter);
     let table = |name, titles: [String; 2]| {
         let [first, last] = titles;
         Table::new(name, &over)

@@ -96,7 +96,7 @@ fn special_tables(set: Dataset, parameter: &Parameter) -> Dataset {
         records,
         &["z", "v", "phase", "w", "orbit_value", "modes", "x"],
     );
-    set.table(table(parameter.key()).in_files())
+    set.table(table(name(parameter)).in_files())
         .table(records.in_document())
 }
 
