@@ -39,7 +39,7 @@ pub(crate) enum Command {
     /// Long-term motion at each point of a plane of two parameters
     #[command(after_help = help::map())]
     Map(DividedArgs),
-    /// The long-term motion that each first state leads to
+    /// The long-term motion that each initial condition leads to
     #[command(after_help = help::basins())]
     Basins(BasinsArgs),
     /// The periodic orbit near the long-term motion, stable or not

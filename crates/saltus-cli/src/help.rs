@@ -149,7 +149,7 @@ pub(crate) fn basins() -> String {
     let what = "\
 The study needs a [basins] table with [basins.x] and [basins.y], the keys
 start.z and start.v in either order; `saltus init paper` shows one. Each pixel
-is a first state of every jumper, with the plate at rest; it is run as for
+is an initial condition of every jumper, with the plate at rest; it is run as for
 `saltus map`.
 
 Two cycles are the same attractor if they have the same period and their
@@ -248,7 +248,7 @@ and exit code 1. Results are the same bits for any --threads.";
 /// Below `saltus attractors --help`.
 pub(crate) fn attractors() -> String {
     let what = "\
-The table [attractors] says from which box first states are drawn, evenly but
+The table [attractors] says from which box initial conditions are drawn, evenly but
 without a pattern; `saltus init paper` shows one. Without the keys parameter,
 from, to and count it asks at the study's own parameters, with them at each
 value. There each attractor is also carried to the values beside, up to where

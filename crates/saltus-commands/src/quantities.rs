@@ -199,8 +199,8 @@ quantities! { FREQUENCIES {
 quantities! { SWEEP {
     DIRECTION: "direction" ""
         "Way through the values: up and down carry the state on; start z v begins anew at each value from that state";
-    START_Z: "start_z" "1" "First height over eta";
-    START_V: "start_v" "1" "First velocity over eta omega_h";
+    START_Z: "start_z" "1" "Initial height over eta";
+    START_V: "start_v" "1" "Initial velocity over eta omega_h";
     SAMPLE: "sample" "1" "Forcing period of the record, at whose end cos(Omega t) = 1";
     LABEL: "label" ["none", "periodic", "quasi-periodic", "chaotic", "undecided"]
         "Kind of the motion that goes on from the last state";
@@ -210,12 +210,12 @@ quantities! { SWEEP {
 
 quantities! { ATTRACTORS {
     ATTRACTOR: "attractor" "1" "Number of the attractor, which stays along the parameter";
-    STARTS_ASKED: "starts_asked" "1" "First states at each value";
-    UNSEEN: "unseen" "1" "With 95 % confidence a basin that no first state met has a smaller part of the box";
+    STARTS_ASKED: "starts_asked" "1" "Initial conditions at each value";
+    UNSEEN: "unseen" "1" "With 95 % confidence a basin that no initial condition met has a smaller part of the box";
     UNFINISHED: "unfinished" "1"
         "Motions still carried on when it took too long; if not 0, an attractor may have several numbers";
-    STARTS: "starts" "1" "First states that lead to it; 0 if it was met from another value alone";
-    SHARE: "share" "1" "Share of the first states";
+    STARTS: "starts" "1" "Initial conditions that lead to it; 0 if it was met from another value alone";
+    SHARE: "share" "1" "Share of the initial conditions";
     SHARE_LOW: "share_low" "1" "Lower end of its 95 % confidence interval";
     SHARE_HIGH: "share_high" "1" "Upper end of its 95 % confidence interval";
     ATTRACTOR_KIND: "kind" ["not-met", "periodic", "quasi-periodic", "chaotic", "not-periodic"] "Kind of the motion";
@@ -227,7 +227,7 @@ quantities! { ATTRACTORS {
     MOTION: "motion" "1" "Attractors of all values";
     MOTION_ATTRACTOR: "motion_attractor" = ATTRACTOR;
     CONNECTED_SAMPLE: "sample" "1" "Samples at cos(Omega t) = 1; those of a cycle connect along the parameter";
-    TRANSIENT_STARTS: "transient_starts" "1" "First states that were in it when their search was over";
+    TRANSIENT_STARTS: "transient_starts" "1" "Initial conditions that were in it when their search was over";
     TRANSIENT_SHARE: "transient_share" = SHARE;
     TRANSIENT_SHARE_LOW: "transient_share_low" = SHARE_LOW;
     TRANSIENT_SHARE_HIGH: "transient_share_high" = SHARE_HIGH;
@@ -262,12 +262,12 @@ quantities! { ATTRACTORS {
         "Lower end of the values between which the motion carried downwards jumps; none if it does not";
     LOOP_JUMP_DOWN_HIGH: "loop_jump_down_high" ""
         "Upper end of the values between which the motion carried downwards jumps";
-    UNDECIDED_STARTS: "undecided_starts" "1" "First states left undecided";
-    UNDECIDED: "undecided" "1" "Share of the first states left undecided";
+    UNDECIDED_STARTS: "undecided_starts" "1" "Initial conditions left undecided";
+    UNDECIDED: "undecided" "1" "Share of the initial conditions left undecided";
     UNDECIDED_LOW: "undecided_low" = SHARE_LOW;
     UNDECIDED_HIGH: "undecided_high" = SHARE_HIGH;
-    LOST_STARTS: "lost_starts" "1" "First states whose run ended early";
-    LOST: "lost" "1" "Share of the first states whose run ended early";
+    LOST_STARTS: "lost_starts" "1" "Initial conditions whose run ended early";
+    LOST: "lost" "1" "Share of the initial conditions whose run ended early";
     LOST_LOW: "lost_low" = SHARE_LOW;
     LOST_HIGH: "lost_high" = SHARE_HIGH;
     FIRST_FAILURE_STATUS: "first_failure_status" "" "How the first of these runs ended, or that there is no model";

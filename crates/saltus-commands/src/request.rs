@@ -28,7 +28,7 @@ pub enum Request {
     Sweep,
     /// Long-term motion over two parameters.
     Map,
-    /// Which long-term motion each first state leads to.
+    /// Which long-term motion each initial condition leads to.
     Basins {
         /// Number the attractors as along the sweep of `[attractors]`.
         #[serde(rename = "match", default)]

@@ -64,7 +64,7 @@ pub(crate) fn capitalized(text: &str) -> String {
     })
 }
 
-/// Words for a way through the values; that of a start is told apart from others by its first state.
+/// Words for a way through the values; that of a start is told apart from others by its initial condition.
 pub(crate) fn direction(pass: &Pass) -> String {
     match pass {
         Pass::Up => "up".to_owned(),

@@ -51,7 +51,7 @@ fn simulate(study: &Study, faults: &mut Vec<Fault>) {
     }));
 }
 
-/// The parameter can vary over its values, and restarts have first states.
+/// The parameter can vary over its values, and restarts have initial conditions.
 fn sweep(study: &Study, faults: &mut Vec<Fault>) {
     let Some(sweep) = &study.sweep else { return };
     if let Some(axis) = values::axis("sweep", &sweep.axis(), faults) {
@@ -87,7 +87,7 @@ fn map(study: &Study, faults: &mut Vec<Fault>) {
     let (Some(x), Some(y)) = (x, y) else { return };
     let refusal = axis::of_the_system([
         "a map begins every pixel from the same [start]",
-        "a plane of first states is what [basins] is for",
+        "a plane of initial conditions is what [basins] is for",
     ]);
     axis::check(study, &[x, y], refusal, faults);
 }

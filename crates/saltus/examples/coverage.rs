@@ -3,9 +3,9 @@
 //!
 //! `cargo run --release -p saltus --example coverage -- [PIXELS] [SEED]`
 //!
-//! The judge runs each first state for 20 000 periods. Where the section then comes back, Newton's method must find a
+//! The judge runs each initial condition for 20 000 periods. Where the section then comes back, Newton's method must find a
 //! cycle there, with all Floquet multipliers inside the unit circle. Where it does not, four motions from the same
-//! first state, 1e-9 eta apart, are run for 20 000 periods more, and the exponent of each is measured over as many.
+//! initial condition, 1e-9 eta apart, are run for 20 000 periods more, and the exponent of each is measured over as many.
 //! Chaos must go on in all four; one that ends on a stable cycle shows that it was a transient. A torus has a weighted
 //! Birkhoff average that is zero.
 //!
@@ -36,10 +36,10 @@ const KEPT: u64 = 128;
 /// A section that comes back nearer than this (eta) may be on a cycle, and a cycle this near is where it is.
 const NEAR: f64 = 0.05;
 
-/// First state of the paper's studies: z/eta and z'/(eta omega_h).
+/// Initial condition of the paper's studies: z/eta and z'/(eta omega_h).
 const START: (f64, f64) = (3.0, 2.0);
 
-/// Motions of one first state, and how far apart they start (eta).
+/// Motions of one initial condition, and how far apart they start (eta).
 const COPIES: usize = 4;
 const APART: f64 = 1e-9;
 
@@ -220,7 +220,7 @@ fn judge(
     Ok(names)
 }
 
-/// Whether one of the motions from the first state of a pixel is on no cycle after `periods` periods: chaos forgets
+/// Whether one of the motions from the initial condition of a pixel is on no cycle after `periods` periods: chaos forgets
 /// which of them the map ran.
 fn lasts(
     (zeta, ratio): Pixel,

@@ -74,7 +74,7 @@ fn a_census_finds_both_attractors_and_bounds_the_rest() {
     let there = list(&found["attractors"]);
     assert_eq!(there.len(), 2, "two 2-cycles coexist: {there:?}");
     let mut counted = 0;
-    // 4096 first states of this box: 97.0 % and 3.0 %
+    // 4096 initial conditions of this box: 97.0 % and 3.0 %
     for (place, (one, true_share)) in there.iter().zip([0.970, 0.030]).enumerate() {
         assert_eq!(one["attractor"], place + 1);
         assert_eq!(one["period"], 2);
@@ -271,7 +271,7 @@ fn out_is_a_whole_folder_and_threads_do_not_change_a_bit() {
         "2: 2T",
         "Hysteresis",
         "95 % confidence interval",
-        "first states",
+        "initial conditions",
     ] {
         assert!(svg.contains(label), "{label}");
     }
@@ -294,7 +294,7 @@ fn a_census_has_a_figure_and_the_summary_is_for_people() {
             .stderr("")
     };
     run(&["--out", &desk.str("out")]).stdout(
-        contains("4 first states")
+        contains("4 initial conditions")
             .and(contains("100.0 %"))
             .and(contains("95 % confidence"))
             .and(contains("less than 75.0 % of the box")),
@@ -368,6 +368,6 @@ fn if_all_first_states_are_lost_the_first_reason_is_told() {
         .assert()
         .code(1)
         .stdout("")
-        .stderr(contains("no first state").and(contains("chattering")));
+        .stderr(contains("no initial condition").and(contains("chattering")));
     assert_eq!(desk.names(), ["paper.toml"]);
 }

@@ -189,7 +189,7 @@ fn transients(set: Dataset, found: &Found) -> Dataset {
         .table(table)
 }
 
-/// First states that came to no attractor at each value, and why the first of those that were lost was.
+/// Initial conditions that came to no attractor at each value, and why the first of those that were lost was.
 fn rows(set: Dataset, found: &Found) -> Dataset {
     let value = found.parameter.as_ref().map(name);
     let over: Vec<&str> = value.as_deref().into_iter().collect();
@@ -222,7 +222,7 @@ fn rows(set: Dataset, found: &Found) -> Dataset {
         )
 }
 
-/// Counts of first states, their shares and the ends of their intervals.
+/// Counts of initial conditions, their shares and the ends of their intervals.
 fn shares(set: Dataset, over: &[&str], named: [Quantity; 4], all: &[BasinFraction]) -> Dataset {
     let [starts, shares, low, high] = named;
     let part = |part: usize| -> Vec<f64> { all.iter().map(|&one| share(one)[part]).collect() };
@@ -232,7 +232,7 @@ fn shares(set: Dataset, over: &[&str], named: [Quantity; 4], all: &[BasinFractio
         .variable(high.over(over, part(2)))
 }
 
-/// Part of the first states, and its 95 % confidence interval.
+/// Part of the initial conditions, and its 95 % confidence interval.
 pub(super) fn share(fraction: BasinFraction) -> [f64; 3] {
     let [low, high] = fraction.interval();
     [fraction.value(), low, high]

@@ -43,7 +43,7 @@ struct Series<'a> {
 }
 
 impl<'a> Series<'a> {
-    /// Those that most first states led to have colours of their own.
+    /// Those that most initial conditions led to have colours of their own.
     fn all(found: &'a Found) -> Vec<Self> {
         let count = found.all.identities.len();
         let mut its: Vec<Vec<(usize, &CountedAttractor)>> = vec![Vec::new(); count];
@@ -172,7 +172,7 @@ fn shares(found: &Found, parameter: &Parameter, series: &[Series]) -> Curves {
     hysteresis(found, without_attractor(found, plot))
 }
 
-/// Part of the first states that led to no attractor.
+/// Part of the initial conditions that led to no attractor.
 fn without_attractor(found: &Found, plot: Curves) -> Curves {
     let none = found.all.rows.iter().filter_map(|row| {
         let census = row.census.as_ref().ok()?;

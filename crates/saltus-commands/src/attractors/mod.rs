@@ -118,7 +118,7 @@ fn plan(study: &Study) -> (Starts, Search) {
     (starts, search)
 }
 
-/// First states of one jumper, at all values together: what each leads to is kept until all are known, some
+/// Initial conditions of one jumper, at all values together: what each leads to is kept until all are known, some
 /// 1 kB of a cycle and up to 5 kB of chaos.
 const MOST: usize = 1_000_000;
 
@@ -143,7 +143,7 @@ fn refuse_if_too_many(study: &Study, values: usize) -> Result<(), CommandError> 
     Err(CommandError::refused(message, help))
 }
 
-/// Nothing is worth keeping if no first state had a long-term motion.
+/// Nothing is worth keeping if no initial condition had a long-term motion.
 fn refuse_if_all_lost(rows: &[Row]) -> Result<(), CommandError> {
     let motion = |row: &Row| {
         let census = row.census.as_ref();
@@ -158,7 +158,7 @@ fn refuse_if_all_lost(rows: &[Row]) -> Result<(), CommandError> {
         None => None,
     };
     let reason = first.map_or(String::new(), |lost| Loss::from(lost).reason);
-    let what = "no first state was run to its end; the first";
+    let what = "no initial condition was run to its end; the first";
     Err(CommandError::computation(format!("{what}: {reason}")))
 }
 

@@ -14,7 +14,7 @@ const LISTED: usize = 12;
 pub(super) fn text(found: &Found) -> String {
     let (table, all) = (&found.study.attractors, &found.all);
     let mut text = format!(
-        "{} first states, z/η from {} to {} and ż/(η ω_h) from {} to {}",
+        "{} initial conditions, z/η from {} to {} and ż/(η ω_h) from {} to {}",
         table.starts, table.z[0], table.z[1], table.v[0], table.v[1]
     );
     let lists = match &found.parameter {
@@ -100,7 +100,7 @@ fn evidence(one: &CountedAttractor) -> String {
 fn in_words_passing(row: &Row, one: &Transient) -> String {
     let [mean, low, high] = one.survival.lifetime();
     format!(
-        "     {} first states in chaos that ends: {} of {} motions left it, lifetime {mean:.0} periods \
+        "     {} initial conditions in chaos that ends: {} of {} motions left it, lifetime {mean:.0} periods \
          ({low:.0} to {high:.0}); counted for {}",
         one.fraction.count,
         one.survival.ended,
@@ -161,7 +161,7 @@ fn short(x: f64) -> f64 {
     format!("{x:.5e}").parse().unwrap_or(x)
 }
 
-/// The largest share of first states that came to no attractor, and where, if there are any.
+/// The largest share of initial conditions that came to no attractor, and where, if there are any.
 fn worst(what: &str, found: &Found, of: fn(&AttractorCensus) -> BasinFraction) -> String {
     let all = found.all.rows.iter();
     let all = all.filter_map(|row| Some((of(row.census.as_ref().ok()?).value(), row)));
@@ -190,7 +190,7 @@ fn passing(found: &Found) -> String {
     })
 }
 
-/// First states without a verdict, and the bound on basins that no first state met.
+/// Initial conditions without a verdict, and the bound on basins that no initial condition met.
 fn doubts(found: &Found) -> String {
     let mut text = passing(found);
     text += &worst("undecided", found, |census| census.undecided);
@@ -207,7 +207,7 @@ fn doubts(found: &Found) -> String {
     }
     let _ = writeln!(
         text,
-        "Intervals are of 95 % confidence; a basin that no first state met has less than {:.1} % of the box.",
+        "Intervals are of 95 % confidence; a basin that no initial condition met has less than {:.1} % of the box.",
         100.0 * BasinFraction::unseen(found.study.attractors.starts.into())
     );
     text

@@ -1,4 +1,4 @@
-//! `saltus basins`: which long-term motion each first state leads to.
+//! `saltus basins`: which long-term motion each initial condition leads to.
 
 mod data;
 mod figures;
@@ -17,7 +17,7 @@ use std::path::Path;
 
 /// Shown to those whose study has none.
 const EXAMPLE: &str = "\
-add a table that says which first states, such as
+add a table that says which initial conditions, such as
 
   [basins.x]
   parameter = \"start.z\"

@@ -82,7 +82,7 @@ const BRANCHES: Uses = &[
     ("Nordmark1991", "orbits beyond a grazing"),
 ];
 const STARTS: Uses = &[
-    ("Sobol1967", "first states spread evenly"),
+    ("Sobol1967", "initial conditions spread evenly"),
     ("Burley2020", "scrambling of these"),
     ("DRW2023", "attractors followed along a parameter"),
 ];

@@ -92,7 +92,7 @@ fn damping(values: &[f64]) -> Variable {
     }
 }
 
-/// First state of each way through the values.
+/// Initial condition of each way through the values.
 fn passes(set: Dataset, passes: &[Pass]) -> Dataset {
     let over = ["direction"];
     let start = |part: fn((f64, f64)) -> f64| -> Vec<f64> {

@@ -22,7 +22,7 @@ pub(super) fn data(found: &Found) -> Dataset {
     tables(exponents(set, found), &name(&found.parameter), found)
 }
 
-/// The ways through the values, with the first state of each.
+/// The ways through the values, with the initial condition of each.
 fn passes(set: Dataset, found: &Found) -> Dataset {
     let (over, passes) = (["direction"], &found.sweep.passes);
     let start = |part: usize| -> Vec<f64> {

@@ -161,7 +161,7 @@ fn question(study: &Study) -> Result<(&SweepTable, Parameter), CommandError> {
     };
     match table.parameter.split('.').next() {
         Some("start") => refused(
-            "the first state is not a parameter of the system",
+            "the initial condition is not a parameter of the system",
             "to begin from several states give them in sweep.starts, with sweep.direction = \"restarts\"",
         ),
         Some("solver") => refused(

@@ -1,4 +1,4 @@
-//! `[attractors]`: all long-term motions that many first states lead to.
+//! `[attractors]`: all long-term motions that many initial conditions lead to.
 
 use super::AxisTable;
 use crate::range::{finite, finite_if_given};
@@ -6,25 +6,25 @@ use garde::Validate;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What `saltus attractors` runs: the attractors reached from quasi-random first states, at the study's own
+/// What `saltus attractors` runs: the attractors reached from quasi-random initial conditions, at the study's own
 /// parameters or at each value of one: give parameter with from, to and count, or with values, or none of them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Validate)]
 #[serde(deny_unknown_fields, default)]
 pub struct AttractorsTable {
-    /// Lowest and highest first height z/η of every jumper (-), such as [-2.0, 6.0].
+    /// Lowest and highest initial height z/η of every jumper (-), such as [-2.0, 6.0].
     #[garde(inner(range(min = -1e6, max = 1e6), custom(finite)))]
     pub z: [f64; 2],
-    /// Lowest and highest first velocity z'/(η ω_h) of every jumper (-), such as [-4.0, 4.0].
+    /// Lowest and highest initial velocity z'/(η ω_h) of every jumper (-), such as [-4.0, 4.0].
     #[garde(inner(range(min = -1e6, max = 1e6), custom(finite)))]
     pub v: [f64; 2],
     /// Largest first amplitude |w_j|/h of each transverse term of the plate (-), such as 0.1; 0: it starts at
     /// rest.
     #[garde(range(min = 0.0, max = 1e3), custom(finite))]
     pub plate: f64,
-    /// Number of first states (-, a whole number), such as 128.
+    /// Number of initial conditions (-, a whole number), such as 128.
     #[garde(range(min = 1, max = 10_000_000))]
     pub starts: u32,
-    /// Forcing periods left out from each first state, at most (-, a whole number), such as 400; fewer are run
+    /// Forcing periods left out from each initial condition, at most (-, a whole number), such as 400; fewer are run
     /// once the motion has surely settled.
     #[garde(range(min = 0, max = 10_000_000))]
     pub transient: u32,

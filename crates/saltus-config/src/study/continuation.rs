@@ -25,7 +25,7 @@ pub struct ContinueTable {
     #[garde(range(min = 0, max = 64))]
     pub period: u32,
     /// Forcing periods run before the first orbit is sought (-, a whole number), such as 200; 0: the search
-    /// begins at the first state.
+    /// begins at the initial condition.
     #[serde(default = "default_transient")]
     #[garde(range(min = 0, max = 10_000_000))]
     pub transient: u32,

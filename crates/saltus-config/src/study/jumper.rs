@@ -68,17 +68,17 @@ pub enum Law {
     RelaxingLeg,
 }
 
-/// The first state of every jumper, at a time when cos(Ω t) = 1; the plate is at rest.
+/// The initial condition of every jumper, at a time when cos(Ω t) = 1; the plate is at rest.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Validate)]
 #[serde(deny_unknown_fields, default)]
 pub struct StartTable {
-    /// First height z/η (-), upwards from the floor at rest, such as 3.0; η = g/ω_h² (m).
+    /// Initial height z/η (-), upwards from the floor at rest, such as 3.0; η = g/ω_h² (m).
     #[garde(range(min = -1e6, max = 1e6), custom(finite))]
-    #[schemars(extend("x-symbol" = "z(0)/η", "x-unit" = "-", "x-label" = "first height"))]
+    #[schemars(extend("x-symbol" = "z(0)/η", "x-unit" = "-", "x-label" = "initial height"))]
     pub z: f64,
-    /// First velocity z'/(η ω_h) (-), upwards, such as 2.0.
+    /// Initial velocity z'/(η ω_h) (-), upwards, such as 2.0.
     #[garde(range(min = -1e6, max = 1e6), custom(finite))]
-    #[schemars(extend("x-symbol" = "z'(0)/(η ω_h)", "x-unit" = "-", "x-label" = "first velocity"))]
+    #[schemars(extend("x-symbol" = "z'(0)/(η ω_h)", "x-unit" = "-", "x-label" = "initial velocity"))]
     pub v: f64,
 }
 

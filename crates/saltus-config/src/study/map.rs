@@ -5,7 +5,7 @@ use garde::Validate;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What `saltus map` runs: the attractor reached from the first state at each pixel of a plane of two parameters.
+/// What `saltus map` runs: the attractor reached from the initial condition at each pixel of a plane of two parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Validate)]
 #[serde(deny_unknown_fields)]
 pub struct MapTable {
@@ -32,7 +32,7 @@ pub struct MapTable {
     pub y: AxisTable,
 }
 
-/// What `saltus basins` runs: the attractor reached from each pixel of a plane of first states.
+/// What `saltus basins` runs: the attractor reached from each pixel of a plane of initial conditions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Validate)]
 #[serde(deny_unknown_fields)]
 pub struct BasinsTable {
@@ -51,10 +51,10 @@ pub struct BasinsTable {
     #[serde(default = "default_exponent")]
     #[garde(range(min = 0, max = 10_000_000))]
     pub exponent: u32,
-    /// The part of the first state along x, left to right: "start.z" or "start.v".
+    /// The part of the initial condition along x, left to right: "start.z" or "start.v".
     #[garde(dive)]
     pub x: AxisTable,
-    /// The part of the first state along y, bottom to top: the other one.
+    /// The part of the initial condition along y, bottom to top: the other one.
     #[garde(dive)]
     pub y: AxisTable,
 }

@@ -62,11 +62,11 @@ pub struct Study {
     #[serde(default)]
     #[garde(dive)]
     pub solver: SolverTable,
-    /// The first state of every jumper; the plate starts at rest.
+    /// The initial condition of every jumper; the plate starts at rest.
     #[serde(default)]
     #[garde(dive)]
     pub start: StartTable,
-    /// What `saltus simulate` runs: the motion from the first state on.
+    /// What `saltus simulate` runs: the motion from the initial condition on.
     #[serde(default)]
     #[garde(dive)]
     pub simulate: SimulateTable,
@@ -80,7 +80,7 @@ pub struct Study {
     #[schemars(with = "MapTable")]
     #[garde(dive)]
     pub map: Option<MapTable>,
-    /// What `saltus basins` runs: where the first states of a plane of them lead.
+    /// What `saltus basins` runs: where the initial conditions of a plane of them lead.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "BasinsTable")]
     #[garde(dive)]
@@ -98,7 +98,7 @@ pub struct Study {
     #[schemars(with = "ContinueTable")]
     #[garde(dive)]
     pub continuation: Option<ContinueTable>,
-    /// What `saltus attractors` runs: every motion that many first states lead to. At the study's own
+    /// What `saltus attractors` runs: every motion that many initial conditions lead to. At the study's own
     /// parameters or at each value of one: give parameter with from, to and count, or with values, or none of them.
     #[serde(default)]
     #[garde(dive)]

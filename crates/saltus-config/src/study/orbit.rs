@@ -4,7 +4,7 @@ use garde::Validate;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// What `saltus orbit` seeks: a periodic orbit, by Newton's method from the motion that the first state leads to.
+/// What `saltus orbit` seeks: a periodic orbit, by Newton's method from the motion that the initial condition leads to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Validate)]
 #[serde(deny_unknown_fields, default)]
 pub struct OrbitTable {
@@ -13,7 +13,7 @@ pub struct OrbitTable {
     #[garde(range(min = 0, max = 64))]
     pub period: u32,
     /// Forcing periods run before Newton's method begins (-, a whole number), such as 200; 0: it begins at
-    /// the first state.
+    /// the initial condition.
     #[garde(range(min = 0, max = 10_000_000))]
     pub transient: u32,
     /// Pieces whose ends Newton's method joins (-, a whole number), at most one per period; 0: one per period.
@@ -32,7 +32,7 @@ impl Default for OrbitTable {
     }
 }
 
-/// What `saltus lyapunov` runs: the exponents of the motion that the first state leads to.
+/// What `saltus lyapunov` runs: the exponents of the motion that the initial condition leads to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema, Validate)]
 #[serde(deny_unknown_fields, default)]
 pub struct LyapunovTable {

@@ -59,7 +59,7 @@ pub struct SweepTable {
     #[serde(default = "default_exponent_periods")]
     #[garde(range(min = 1, max = 10_000_000))]
     pub exponent_periods: u32,
-    /// First states [z/η, z'/(η ω_h)] of every jumper for "restarts" (-), such as [[3.0, 2.0], [-1.0, 0.0]].
+    /// Initial conditions [z/η, z'/(η ω_h)] of every jumper for "restarts" (-), such as [[3.0, 2.0], [-1.0, 0.0]].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[garde(skip)]
     pub starts: Vec<[f64; 2]>,

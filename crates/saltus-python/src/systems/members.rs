@@ -1,4 +1,4 @@
-//! The trajectories that Python asks for: parameters, first states and modes, checked against the system.
+//! The trajectories that Python asks for: parameters, initial conditions and modes, checked against the system.
 
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;

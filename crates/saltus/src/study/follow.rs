@@ -99,7 +99,7 @@ const PATIENCE: usize = 8;
 const WATCHED: usize = 8;
 const WATCH: u64 = 12_000;
 
-/// Distance at which they start in the first state, in the units of the model: nothing beside the chaos, and forgotten
+/// Distance at which they start in the initial condition, in the units of the model: nothing beside the chaos, and forgotten
 /// after some hundred periods of it.
 const APART: f64 = 1e-6;
 
