@@ -2,8 +2,8 @@
 
     PYTHON scripts/book/api.py FOLDER       writes FOLDER.md and the pages in FOLDER
 
-PYTHON must have the package saltus. Public is what a module lists in `__all__`, and of a class what has no underscore in
-front; each needs a docstring. Sections are those of NumPy's style.
+PYTHON must have the package saltus. Public is what a module lists in `__all__`, its other functions and classes without an
+underscore in front, and of a class what has none; each needs a docstring. Sections are those of NumPy's style.
 """
 
 import ast
@@ -35,6 +35,8 @@ PAGES = {
 MODULES = ("saltus", "saltus.systems", "saltus.dask")
 # Sections of which each item has a name, a type and a text; in the others text stands as it is.
 _LISTS = ("Parameters", "Other Parameters", "Returns", "Yields", "Raises", "Warns", "Attributes", "See Also")
+# The first line of a table in reStructuredText.
+_RULE = re.compile(r"=+( +=+)+$", flags=re.MULTILINE)
 
 
 class Undocumented(Exception):
@@ -133,7 +135,9 @@ class Writer:
                 continue
             literal = block.rstrip().endswith("::")
             block = textwrap.dedent(block)
-            if block.startswith(">>>"):
+            if _RULE.match(block):
+                parts.append(self.table(block, here))
+            elif block.startswith(">>>"):
                 if parts and parts[-1].endswith("\n```") and parts[-1].startswith("```python"):
                     parts[-1] = f"{parts[-1][:-4]}\n\n{block}\n```"
                 else:
@@ -143,6 +147,23 @@ class Writer:
                 # lists keep their lines
                 parts.append(re.sub(r"\n\s*\\?([*-]) ", r"\n\1 ", shown))
         return "\n\n".join(parts)
+
+    def table(self, block: str, here: Entry) -> str:
+        """A table between rules of `=`; a row without a first cell goes on with the one before."""
+        rule, *lines = block.splitlines()
+        spans = [found.span() for found in re.finditer("=+", rule)]
+        ends = [start for start, _ in spans[1:]] + [None]
+        rows: list[list[str]] = []
+        for line in lines:
+            if set(line) <= set("= "):
+                continue
+            cells = [line[start:end].strip() for (start, _), end in zip(spans, ends)]
+            if cells[0] or not rows:
+                rows.append(cells)
+            else:
+                rows[-1] = [f"{before} {more}".strip() for before, more in zip(rows[-1], cells)]
+        shown = ["| " + " | ".join(self.inline(cell, here).replace("|", "\\|") for cell in row) + " |" for row in rows]
+        return "\n".join([shown[0], "|" + "---|" * len(spans), *shown[1:]])
 
     def docstring(self, found: Docstring, here: Entry) -> str:
         """A docstring: its text, then each section below its title."""
@@ -271,11 +292,24 @@ def page_of(module: str, value: Any) -> str:
     return "commands" if home == "saltus._commands" else "results"
 
 
+def public(module: ModuleType) -> list[str]:
+    """What a module offers: `__all__`, and functions and classes of its package that `import *` had better leave out."""
+    own = f"{module.__name__}."
+    others = [
+        name
+        for name, value in vars(module).items()
+        if not name.startswith("_")
+        and (inspect.isfunction(value) or inspect.isclass(value))
+        and f"{value.__module__}.".startswith(own)
+    ]
+    return sorted({*module.__all__, *others})
+
+
 def entries(modules: list[ModuleType]) -> list[Entry]:
     """The public names of modules; raises `Undocumented` with those that say nothing of themselves."""
     found, silent = [], []
     for module in modules:
-        for name in module.__all__:
+        for name in public(module):
             value = getattr(module, name)
             found.append(Entry(module.__name__, name, value, page_of(module.__name__, value)))
             silent += [f"{module.__name__}.{each}" for each in _silent(name, value)]

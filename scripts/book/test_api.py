@@ -48,6 +48,14 @@ class Silent:
 def walk(far, *, fast=False):
     """Walk as far as asked; a*b and x_i stay.
 
+    ===== ==========
+    how   what `far` is
+    ===== ==========
+    slow  a mile
+    fast  two, or
+          three
+    ===== ==========
+
     It may take long::
 
         so long
@@ -104,6 +112,17 @@ class Pages(unittest.TestCase):
         page = self.page(walk=walk, Walker=Walker)
         self.assertIn("```python,no-run\n>>> walk(1)\n1\n\n>>> walk(2)\n2\n```", page)
         self.assertIn("It may take long:\n\n```text\nso long\n```", page)
+
+    def test_tables_are_tables(self):
+        page = self.page(walk=walk, Walker=Walker)
+        self.assertIn("| how | what `far` is |\n|---|---|\n| slow | a mile |\n| fast | two, or three |", page)
+
+    def test_a_name_that_all_leaves_out_is_public_too(self):
+        walk.__module__ = "saltus._walking"
+        self.addCleanup(setattr, walk, "__module__", __name__)
+        found = module(Walker=Walker)
+        found.walk, found._hidden, found.Path = walk, walk, Path
+        self.assertEqual(api.public(found), ["Walker", "walk"])
 
     def test_names_are_links_and_signs_of_markdown_are_not(self):
         page = self.page(walk=walk, Walker=Walker)
