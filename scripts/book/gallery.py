@@ -174,6 +174,8 @@ def page(cases: list[Case], pictures: str) -> str:
             )
         parts.append("\n".join([*rows, "</div>"]))
         parts.append(f"```sh\n{shown(case)}\n```")
+        if case.study == "empty.toml":
+            parts.append(f"with the study `empty.toml`, a plate without people:\n\n```toml\n{EMPTY}```")
     return "\n\n".join(parts) + "\n"
 
 
