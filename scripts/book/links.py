@@ -62,7 +62,7 @@ def _fault(path: Path, target: str, pages: dict[Path, _Page]) -> str | None:
 
 
 _PATH = re.compile(r"`((?:crates|scripts|docs|benches|python)/[\w./-]+)`")
-_TEST = re.compile(r"\btests?\s+`([a-z0-9_]+)`")
+_TESTS = re.compile(r"\b[Tt]ests?\s+(`[a-z0-9_]+`(?:(?:,|\s+and|,\s+and)\s+`[a-z0-9_]+`)*)")
 _LINK = re.compile(r"\]\((?!\w+:|#)([^)\s#]+)")
 
 
@@ -75,10 +75,12 @@ def stale_names(repository: Path, pages: list[Path]) -> list[str]:
                 tests |= set(re.findall(rf"\b{word} ([a-z0-9_]+)", source.read_text(encoding="utf-8")))
     found = []
     for page in pages:
-        for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
-            where = f"{page.relative_to(repository)}:{number}"
-            found += [f"{where}: no file {name}" for name in _PATH.findall(line) if not (repository / name).exists()]
-            found += [f"{where}: no test {name}" for name in _TEST.findall(line) if name not in tests]
+        text = page.read_text(encoding="utf-8")
+        named = [(path.start(), "file", path[1]) for path in _PATH.finditer(text)]
+        named += [(list_.start(), "test", name) for list_ in _TESTS.finditer(text) for name in re.findall(r"`(\w+)`", list_[1])]
+        for place, kind, name in sorted(named):
+            if name not in tests if kind == "test" else not (repository / name).exists():
+                found.append(f"{page.relative_to(repository)}:{text.count(chr(10), 0, place) + 1}: no {kind} {name}")
     return found
 
 

@@ -48,6 +48,12 @@ class Links(unittest.TestCase):
             ["docs/a.md:2: no file crates/b.rs", "docs/a.md:2: no test it_does_not"],
         )
 
+    def test_each_of_several_tests_is_looked_for_across_lines_too(self):
+        self.write("crates/a.rs", "fn it_holds() {}")
+        page = self.write("docs/a.md", "[^a]: Tests `it_holds`, `gone` and\n    `gone_too`.\n")
+        found = ["docs/a.md:1: no test gone", "docs/a.md:1: no test gone_too"]
+        self.assertEqual(links.stale_names(self.root, [page]), found)
+
     def test_relative_links_of_a_page_outside_the_book_are_checked(self):
         page = self.write("README.md", "[a](a.md) [b](docs/b.md#x) [c](https://example.org) [d](#here)")
         self.write("a.md", "")
