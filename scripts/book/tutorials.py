@@ -4,6 +4,7 @@ Blocks that run, in the order of the page, in a folder of the page's own:
 
     ```python             one namespace for the page; a traceback names the line of the page
     ```console            `$ COMMAND` and what it prints, both streams; a backslash goes on in the next line
+    ```sh run             a command on each line; with `small` its questions are made small, so that a tour takes seconds
     ```text,output        what the block before it has printed
     ```toml,file=NAME     is written to the file NAME; so is any other block with `file=`
 
@@ -44,6 +45,8 @@ class Block:
 
     @property
     def runs(self) -> bool:
+        if self.language == "sh":
+            return "run" in self.words
         return "no-run" not in self.words and (self.language in ("python", "console") or self.file is not None)
 
     @property
@@ -112,6 +115,37 @@ def run_console(block: Block) -> str:
     return printed
 
 
+#: Keys of every question that a tour asks.
+SMALL = [
+    "plate.inertia=condensed",
+    *(f"{table}.{axis}.count=6" for table in ("map", "basins") for axis in "xy"),
+    "sweep.count=5",
+    "sweep.transient=50",
+    "sweep.record=20",
+    "lyapunov.periods=50",
+    "continue.cloud=5",
+    "continue.second.curves=['none']",
+    "attractors.starts=4",
+    "attractors.count=2",
+]
+
+
+def run_sh(block: Block) -> str:
+    """Runs the lines of a block; gives the output of the last one."""
+    printed = ""
+    for number, line in enumerate(block.text.splitlines(), block.line + 1):
+        command = re.sub(r"\s+#.*$", "", line)
+        if "small" in block.words and "--out" in command:
+            command += "".join(f' --set "{key}"' for key in SMALL)
+        done = subprocess.run(
+            command, shell=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        )
+        printed = done.stdout
+        if done.returncode:
+            raise Failed(f"{number}: `{command}` ended with status {done.returncode}:\n{printed}")
+    return printed
+
+
 def run_python(block: Block, page: str, namespace: dict) -> str:
     """Runs a block; gives its output."""
     printed = io.StringIO()
@@ -146,6 +180,8 @@ def run_here(page: str):
             Path(block.file).write_text(block.text, encoding="utf-8")
         elif block.language == "console":
             printed = run_console(block)
+        elif block.language == "sh":
+            printed = run_sh(block)
         else:
             printed = run_python(block, page, namespace)
 
