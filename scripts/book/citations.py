@@ -5,7 +5,8 @@ import unicodedata
 from collections.abc import Callable
 
 _WORK = re.compile(r"^- \*\*([^*]+)\*\*:", flags=re.MULTILINE)
-_CITED = re.compile(r"(?<!\])\[([^\[\]()]+)\](?![\[(:])")
+# Neither the text of a link nor the definition of one, which begins a line.
+_CITED = re.compile(r"^\[[^\]]+\]:|(?<!\])\[([^\[\]()]+)\](?![\[(])", flags=re.MULTILINE)
 # What looks like a citation, so that one without its work is noticed: a name and a year.
 _LIKE = re.compile(r"[A-ZÀ-Þ][\w &'.-]* (?:1[89]|20)\d\d$")
 # Code and equations hold no citations.
@@ -33,7 +34,7 @@ def linked(text: str, known: list[str], page: str) -> tuple[str, list[str]]:
     unknown: list[str] = []
 
     def link(cited: re.Match[str]) -> str:
-        parts = re.split(r"([;,] )", cited[1])
+        parts = re.split(r"([;,] )", cited[1] or "")
         keys = parts[::2]
         if not any(key in known or _LIKE.match(key) for key in keys):
             return cited[0]

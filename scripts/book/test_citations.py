@@ -21,6 +21,7 @@ class Citations(unittest.TestCase):
             " \\[[Müller 1995](references.md#muller-1995); [BBCK 2008](references.md#bbck-2008)\\]"
         )
         self.assertEqual(self.linked("as [DP] and [Müller 1995; BBCK 2008]"), (expected, []))
+        self.assertEqual(self.linked("in [DP]: so"), ("in \\[[DP](references.md#dp)\\]: so", []))
 
     def test_links_code_equations_and_footnotes_stay(self):
         text = "[DP](a.md) `[DP]` $[DP]$ [^DP] [sweep]\n```sh\n[DP]\n```\n$$\n[DP]\n$$\n[DP]: x"
