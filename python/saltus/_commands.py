@@ -38,7 +38,7 @@ __all__ = [
 
 Path_ = str | os.PathLike[str]
 
-#: A first state: height z/eta and velocity z'/(eta omega_h) of every jumper.
+#: An initial condition: height z/eta and velocity z'/(eta omega_h) of every jumper.
 State = tuple[float, float]
 
 
@@ -101,7 +101,7 @@ def simulate(
     study : Study or path
         What it is about.
     start : (float, float), optional
-        First height z/eta and velocity z'/(eta omega_h) of every jumper, in place of ``study.start``.
+        Initial height z/eta and velocity z'/(eta omega_h) of every jumper, in place of ``study.start``.
         The plate begins at rest.
     periods : int, optional
         Forcing periods integrated (-, a whole number), such as 100. Range: 1 to 1e7. Default: 100.
@@ -230,8 +230,8 @@ def sweep(
         Forcing periods over which they are followed (-, a whole number), such as 400. Range: 1 to
         1e7. Default: 400.
     starts : array_like, shape (n, 2), optional
-        First states [z/η, z'/(η ω_h)] of every jumper for "restarts" (-), such as [[3.0, 2.0],
-        [-1.0, 0.0]].
+        Initial conditions [z/η, z'/(η ω_h)] of every jumper for "restarts" (-), such as [[3.0,
+        2.0], [-1.0, 0.0]].
     values : array_like, shape (n,), optional
         The values one by one (in the unit of the parameter), ascending or descending, such as [0.1,
         0.15, 0.3]; instead of `from`, `to` and `count`. Range: -1e13 to 1e13.
@@ -327,7 +327,7 @@ def map(  # noqa: A001 (the word of the program)
         Parameter and values along the axis, as ``Axis(parameter="jumper.mass", from_=50.0, to=90.0,
         count=41)``; or the values alone, rising or falling, of the study's own parameter.
     start : (float, float), optional
-        First height z/eta and velocity z'/(eta omega_h) of every jumper, in place of ``study.start``.
+        Initial height z/eta and velocity z'/(eta omega_h) of every jumper, in place of ``study.start``.
     transient : int, optional
         Forcing periods left out at each pixel, at most (-, a whole number), such as 400; fewer are
         run once the motion has surely settled. Range: 0 to 1e7. Default: 400.
@@ -392,7 +392,7 @@ def basins(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Result:
-    """Basins of attraction: the long-term motion that each first state leads to.
+    """Basins of attraction: the long-term motion that each initial condition leads to.
 
     Keywords that are keys of ``study.basins`` take the place of those of the study.
 
@@ -403,7 +403,7 @@ def basins(
     x, y : Axis or array_like, optional
         The axes, of the parameters "start.z" and "start.v", as in :func:`map`.
     z, v : array_like, shapes (nz,) and (nv,), optional
-        First heights z/eta and velocities z'/(eta omega_h), rising or falling; all pairs of them are
+        Initial heights z/eta and velocities z'/(eta omega_h), rising or falling; all pairs of them are
         run. In place of the axes of ``study.basins``, which need not be there if both are given.
     match : bool
         Number the attractors as along the sweep of ``study.attractors``.
@@ -487,7 +487,7 @@ def orbit(
         long-term motion. Range: 0 to 64. Default: 0.
     transient : int, optional
         Forcing periods run before Newton's method begins (-, a whole number), such as 200; 0: it
-        begins at the first state. Range: 0 to 1e7. Default: 200.
+        begins at the initial condition. Range: 0 to 1e7. Default: 200.
     segments : int, optional
         Pieces whose ends Newton's method joins (-, a whole number), at most one per period; 0: one
         per period. Range: 0 to 64. Default: 0.
@@ -571,7 +571,7 @@ def continue_(
         of the long-term motion. Range: 0 to 64. Default: 0.
     transient : int, optional
         Forcing periods run before the first orbit is sought (-, a whole number), such as 200; 0:
-        the search begins at the first state. Range: 0 to 1e7. Default: 200.
+        the search begins at the initial condition. Range: 0 to 1e7. Default: 200.
     step : float, optional
         Largest step along a branch, as a part of the range (-), such as 0.02. Range: 1e-6 to 1.
         Default: 0.02.
@@ -654,7 +654,7 @@ def lyapunov(
     study : Study or path
         What it is about.
     start : (float, float), optional
-        First height z/eta and velocity z'/(eta omega_h) of every jumper, in place of ``study.start``.
+        Initial height z/eta and velocity z'/(eta omega_h) of every jumper, in place of ``study.start``.
     exponents : int, optional
         How many exponents, the largest first (-, a whole number), such as 2; 0: all, one per state.
         Range: 0 to 100000. Default: 0.
@@ -717,7 +717,7 @@ def attractors(
     threads: int | None = None,
     progress: Progress = None,
 ) -> Result:
-    """All coexisting attractors, their shares of a box of first states, and hysteresis.
+    """All coexisting attractors, their shares of a box of initial conditions, and hysteresis.
 
     Keywords that are keys of ``study.attractors`` take the place of those of the study.
 
@@ -726,19 +726,20 @@ def attractors(
     study : Study or path
         What it is about.
     z : (float, float), optional
-        Lowest and highest first height z/η of every jumper (-), such as [-2.0, 6.0]. Range: -1e6 to
-        1e6. Default: [-2.0, 6.0].
+        Lowest and highest initial height z/η of every jumper (-), such as [-2.0, 6.0]. Range: -1e6
+        to 1e6. Default: [-2.0, 6.0].
     v : (float, float), optional
-        Lowest and highest first velocity z'/(η ω_h) of every jumper (-), such as [-4.0, 4.0].
+        Lowest and highest initial velocity z'/(η ω_h) of every jumper (-), such as [-4.0, 4.0].
         Range: -1e6 to 1e6. Default: [-4.0, 4.0].
     plate : float, optional
         Largest first amplitude |w_j|/h of each transverse term of the plate (-), such as 0.1; 0: it
         starts at rest. Range: 0 to 1000. Default: 0.0.
     starts : int, optional
-        Number of first states (-, a whole number), such as 128. Range: 1 to 1e7. Default: 128.
+        Number of initial conditions (-, a whole number), such as 128. Range: 1 to 1e7. Default:
+        128.
     transient : int, optional
-        Forcing periods left out from each first state, at most (-, a whole number), such as 400;
-        fewer are run once the motion has surely settled. Range: 0 to 1e7. Default: 400.
+        Forcing periods left out from each initial condition, at most (-, a whole number), such as
+        400; fewer are run once the motion has surely settled. Range: 0 to 1e7. Default: 400.
     record : int, optional
         Forcing periods recorded where the motion has not surely settled before (-, a whole number),
         such as 64. Range: 1 to 100000. Default: 64.
@@ -760,7 +761,7 @@ def attractors(
     -------
     Result
         Of shape (value, attractor), the values called after their key: ``kind``, ``period``, ``share``
-        of the first states with the ends ``share_low`` and ``share_high`` of its interval of 95 %,
+        of the initial conditions with the ends ``share_low`` and ``share_high`` of its interval of 95 %,
         ``multiplier`` or ``exponent``, ``peak_acceleration`` (m/s²). ``z`` and ``v`` are the sections of
         all attractors met, one after the other; ``tables["loops"]`` has the loops of hysteresis.
 
@@ -823,7 +824,7 @@ def reproduce(
 
 
 def _changed(study: StudyLike, table: str, arguments: Mapping[str, Any]) -> Study:
-    """The study with those `arguments` that are keys of `table`, and with their first state."""
+    """The study with those `arguments` that are keys of `table`, and with their initial condition."""
     study = as_study(study)
     start = arguments.get("start")
     if start is not None:

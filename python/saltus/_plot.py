@@ -394,7 +394,7 @@ def _shares(ax: Axes, result: Result, jumper: int, kwargs: dict[str, Any]) -> li
         reach = np.abs([result["share"] - result["share_low"], result["share_high"] - result["share"]])
         colours = [_of_attractor(number) for number in result["attractor"]]
         bars = ax.bar(result["attractor"], result["share"], yerr=reach, color=colours, **kwargs)
-        ax.set(xlabel="Attractor", ylabel="Share of the first states", ylim=(0.0, 1.0))
+        ax.set(xlabel="Attractor", ylabel="Share of the initial conditions", ylim=(0.0, 1.0))
         return list(bars)
     artists: list[Artist] = []
     for place, number in enumerate(result["attractor"]):
@@ -404,7 +404,7 @@ def _shares(ax: Axes, result: Result, jumper: int, kwargs: dict[str, Any]) -> li
         ends = result["share_low"][:, place], result["share_high"][:, place]
         ax.fill_between(result[along], *ends, color=line.get_color(), alpha=0.2, lw=0.0)
         artists.append(line)
-    ax.set(xlabel=_label(result, along), ylabel="Share of the first states", ylim=(0.0, 1.05))
+    ax.set(xlabel=_label(result, along), ylabel="Share of the initial conditions", ylim=(0.0, 1.05))
     _legend(ax, artists)
     return artists
 

@@ -258,7 +258,7 @@ class Result(Mapping[str, NDArray[Any]]):
         basins     "basins", "map", or an array over the plane by its name
         continue   "branches", "curves"
         lyapunov   "exponents", "convergence"
-        attractors "attractors" (their sections), "shares" (of the first states)
+        attractors "attractors" (their sections), "shares" (of the initial conditions)
         ========== =====================================================================
 
         A period has the same colour in all plots.

@@ -247,22 +247,22 @@ class Solver:
 
 @dataclass(frozen=True, kw_only=True)
 class Start:
-    """The first state of every jumper; the plate starts at rest."""
+    """The initial condition of every jumper; the plate starts at rest."""
 
     z: float | None = None
-    """First height z/η (-), upwards from the floor at rest, such as 3.0; η = g/ω_h²
-    (m). Range: -1e6 to 1e6. Default: 3.0.
+    """Initial height z/η (-), upwards from the floor at rest, such as 3.0; η =
+    g/ω_h² (m). Range: -1e6 to 1e6. Default: 3.0.
     """
 
     v: float | None = None
-    """First velocity z'/(η ω_h) (-), upwards, such as 2.0. Range: -1e6 to 1e6.
+    """Initial velocity z'/(η ω_h) (-), upwards, such as 2.0. Range: -1e6 to 1e6.
     Default: 2.0.
     """
 
 
 @dataclass(frozen=True, kw_only=True)
 class Simulate:
-    """What `saltus simulate` runs: the motion from the first state on."""
+    """What `saltus simulate` runs: the motion from the initial condition on."""
 
     periods: int | None = None
     """Forcing periods integrated (-, a whole number), such as 100. Range: 1 to 1e7.
@@ -345,8 +345,8 @@ class Sweep:
     """
 
     starts: Rows | None = None
-    """First states [z/η, z'/(η ω_h)] of every jumper for "restarts" (-), such as
-    [[3.0, 2.0], [-1.0, 0.0]].
+    """Initial conditions [z/η, z'/(η ω_h)] of every jumper for "restarts" (-), such
+    as [[3.0, 2.0], [-1.0, 0.0]].
     """
 
     values: Numbers | None = None
@@ -414,7 +414,9 @@ class Map:
 
 @dataclass(frozen=True, kw_only=True)
 class Basins:
-    """What `saltus basins` runs: where the first states of a plane of them lead."""
+    """What `saltus basins` runs: where the initial conditions of a plane of them
+    lead.
+    """
 
     transient: int | None = None
     """Forcing periods left out at each pixel, at most (-, a whole number), such as
@@ -435,10 +437,12 @@ class Basins:
     """
 
     x: Axis
-    """The part of the first state along x, left to right: "start.z" or "start.v"."""
+    """The part of the initial condition along x, left to right: "start.z" or
+    "start.v".
+    """
 
     y: Axis
-    """The part of the first state along y, bottom to top: the other one."""
+    """The part of the initial condition along y, bottom to top: the other one."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -452,7 +456,7 @@ class Orbit:
 
     transient: int | None = None
     """Forcing periods run before Newton's method begins (-, a whole number), such as
-    200; 0: it begins at the first state. Range: 0 to 1e7. Default: 200.
+    200; 0: it begins at the initial condition. Range: 0 to 1e7. Default: 200.
     """
 
     segments: int | None = None
@@ -539,8 +543,8 @@ class Continue:
 
     transient: int | None = None
     """Forcing periods run before the first orbit is sought (-, a whole number), such
-    as 200; 0: the search begins at the first state. Range: 0 to 1e7. Default:
-    200.
+    as 200; 0: the search begins at the initial condition. Range: 0 to 1e7.
+    Default: 200.
     """
 
     step: float | None = None
@@ -571,19 +575,20 @@ class Continue:
 
 @dataclass(frozen=True, kw_only=True)
 class Attractors:
-    """What `saltus attractors` runs: every motion that many first states lead to.
+    """What `saltus attractors` runs: every motion that many initial conditions lead
+    to.
 
     At the study's own parameters or at each value of one: give parameter with
     from, to and count, or with values, or none of them.
     """
 
     z: tuple[float, float] | Numbers | None = None
-    """Lowest and highest first height z/η of every jumper (-), such as [-2.0, 6.0].
-    Range: -1e6 to 1e6. Default: [-2.0, 6.0].
+    """Lowest and highest initial height z/η of every jumper (-), such as [-2.0,
+    6.0]. Range: -1e6 to 1e6. Default: [-2.0, 6.0].
     """
 
     v: tuple[float, float] | Numbers | None = None
-    """Lowest and highest first velocity z'/(η ω_h) of every jumper (-), such as
+    """Lowest and highest initial velocity z'/(η ω_h) of every jumper (-), such as
     [-4.0, 4.0]. Range: -1e6 to 1e6. Default: [-4.0, 4.0].
     """
 
@@ -593,14 +598,14 @@ class Attractors:
     """
 
     starts: int | None = None
-    """Number of first states (-, a whole number), such as 128. Range: 1 to 1e7.
-    Default: 128.
+    """Number of initial conditions (-, a whole number), such as 128. Range: 1 to
+    1e7. Default: 128.
     """
 
     transient: int | None = None
-    """Forcing periods left out from each first state, at most (-, a whole number),
-    such as 400; fewer are run once the motion has surely settled. Range: 0 to
-    1e7. Default: 400.
+    """Forcing periods left out from each initial condition, at most (-, a whole
+    number), such as 400; fewer are run once the motion has surely settled. Range:
+    0 to 1e7. Default: 400.
     """
 
     record: int | None = None

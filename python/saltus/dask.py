@@ -85,7 +85,7 @@ def basins(
     out: str | os.PathLike[str] | None = None,
     progress: Progress = None,
 ) -> Result:
-    """Basins of attraction: the long-term motion that each first state leads to.
+    """Basins of attraction: the long-term motion that each initial condition leads to.
 
     Parameters
     ----------

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import copy
 import pickle
+import subprocess
+import sys
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
@@ -148,10 +150,9 @@ def test_a_folder_that_is_no_result_is_refused(study: Study, tmp_path: Path) -> 
 
 
 def test_a_study_alone_is_no_result(study: Study, tmp_path: Path) -> None:
-    from saltus.__main__ import main
-
     study.save(tmp_path / "study.toml")
-    assert main(["check", str(tmp_path / "study.toml"), "--out", str(tmp_path / "alone"), "-q"]) == 0
+    run = [sys.executable, "-m", "saltus", "check", "study.toml", "--out", "alone", "-q"]
+    subprocess.run(run, cwd=tmp_path, timeout=120, check=True)
     with pytest.raises(StudyError, match="answers no question"):
         saltus.load(tmp_path / "alone")
 

@@ -197,7 +197,7 @@ def test_labels_are_typeset() -> None:
     assert typeset("Body mass m_h") == "Body mass $m_{h}$"
     assert typeset("Poisson's ratio ν") == r"Poisson's ratio $\nu $"  # noqa: RUF001
     assert typeset("Base frequency Ω/2π") == r"Base frequency $\Omega /2\pi $"
-    for text in ("Plate length a", "First velocity z'(0)/(η ω_h)"):
+    for text in ("Plate length a", "Initial velocity z'(0)/(η ω_h)"):
         plt.figure().text(0.0, 0.0, typeset(text))
         plt.gcf().canvas.draw()
     plt.close("all")
