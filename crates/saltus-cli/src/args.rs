@@ -2,7 +2,8 @@
 
 use crate::ending::{self, Ending};
 use crate::{help, output};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 use saltus_commands::Shard;
 use saltus_results::shown::{printable, printable_lines};
 use saltus_results::{FigureStyle, ResultsError};
@@ -60,6 +61,11 @@ pub(crate) enum Command {
     /// Compute a result again and say whether it comes out the same
     #[command(after_help = help::RERUN)]
     Rerun(RerunArgs),
+    /// Print a script that completes commands and options in a shell
+    #[command(after_help = help::COMPLETIONS)]
+    Completions(CompletionsArgs),
+    /// Print the manual page, or write one for each command
+    Man(ManArgs),
 }
 
 /// The study a command works on.
@@ -266,6 +272,25 @@ pub(crate) struct SimulateArgs {
     pub(crate) threads: ThreadArgs,
 }
 
+#[derive(Debug, Args)]
+pub(crate) struct CompletionsArgs {
+    /// Shell that is to complete
+    #[arg(value_enum)]
+    pub(crate) shell: Shell,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct ManArgs {
+    /// Folder for the pages, saltus.1 and one for each command; made if it is not there
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+}
+
+/// The whole grammar.
+pub(crate) fn grammar() -> clap::Command {
+    Cli::command()
+}
+
 /// The command asked for; `None` if help or the version was asked for and printed.
 pub(crate) fn parse(args: impl IntoIterator<Item = OsString>) -> Result<Option<Command>, Ending> {
     let args: Vec<OsString> = args.into_iter().collect();
@@ -298,11 +323,8 @@ pub(crate) fn parse(args: impl IntoIterator<Item = OsString>) -> Result<Option<C
 
 #[cfg(test)]
 mod tests {
-    use super::Cli;
-    use clap::CommandFactory;
-
     #[test]
     fn the_grammar_is_sound() {
-        Cli::command().debug_assert();
+        super::grammar().debug_assert();
     }
 }

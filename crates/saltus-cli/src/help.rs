@@ -321,6 +321,15 @@ Exit code 0 means the same bits, 1 that there are differences, 3 that there is
 no result to compare with: a file is missing or was altered, or the earlier
 result of `continue --from` is not where it was.";
 
+/// Below `saltus completions --help`.
+pub(crate) const COMPLETIONS: &str = "\
+Where the script belongs:
+  bash        ~/.local/share/bash-completion/completions/saltus
+  zsh         _saltus in a folder of $fpath
+  fish        ~/.config/fish/completions/saltus.fish
+  powershell  saltus completions powershell | Out-String | Invoke-Expression
+  elvish      eval (saltus completions elvish | slurp)";
+
 #[cfg(test)]
 mod tests {
     #[test]
@@ -336,7 +345,7 @@ mod tests {
             super::attractors(),
         ];
         let made = made.iter().map(String::as_str);
-        let all = made.chain([super::CITE, super::RERUN]);
+        let all = made.chain([super::CITE, super::RERUN, super::COMPLETIONS]);
         for line in all.flat_map(str::lines) {
             assert!(line.chars().count() <= 80, "{line}");
         }

@@ -14,6 +14,7 @@ mod progress;
 mod run;
 mod saved;
 mod schema;
+mod shell;
 
 use std::ffi::OsString;
 

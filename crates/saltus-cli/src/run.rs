@@ -8,10 +8,10 @@ use crate::ending::Ending;
 use crate::load::load;
 use crate::output::tell;
 use crate::progress::Bars;
-use crate::{check, init, interrupt, output, saved, schema};
+use crate::{check, init, interrupt, output, saved, schema, shell};
 use saltus_commands::{
-    Answer, CommandError, Destination, Existing, Labelled, Pieces, PiecesAt, Request, RunContext,
-    Shard,
+    Answer, CommandError, Destination, Estimate, Existing, Labelled, Pieces, PiecesAt, Request,
+    RunContext, Shard,
 };
 use saltus_config::Study;
 use std::time::Instant;
@@ -34,6 +34,8 @@ pub(crate) fn run(command: Command) -> Result<(), Ending> {
         Command::Attractors(args) => work(&Request::Attractors, &args),
         Command::Cite(args) => saved::cite(&args),
         Command::Rerun(args) => saved::rerun(&args),
+        Command::Completions(args) => shell::completions(&args),
+        Command::Man(args) => shell::man(&args),
     }
 }
 
@@ -152,6 +154,23 @@ impl How<'_> {
     }
 }
 
+/// Says how long it will take if that is long; of work that is shared out among `of`, how long a share of it will.
+fn announce(request: &Request, study: &Study, how: &How, context: &RunContext, of: u32) {
+    let computes = how
+        .keep
+        .as_ref()
+        .is_none_or(|keep| keep.found != Existing::Merge);
+    if how.output.quiet || !computes {
+        return;
+    }
+    let estimate = request
+        .estimate(study, context)
+        .map(|whole| whole.share(of));
+    if let Some(estimate) = estimate.filter(Estimate::is_long) {
+        output::note(&estimate.to_string());
+    }
+}
+
 /// Makes the pieces of a shard, and prints which.
 fn share(request: &Request, study: &Study, shard: Shard, how: &How) -> Result<(), Ending> {
     let bars = Bars::new(how.output.quiet);
@@ -159,6 +178,7 @@ fn share(request: &Request, study: &Study, shard: Shard, how: &How) -> Result<()
     if let Some(out) = &how.output.out {
         how.destination(request, study, &context).try_out(out)?;
     }
+    announce(request, study, how, &context, shard.of());
     let share = request.share(study, shard, &context)?;
     tell(how.output.json, how.output.quiet, &share)
 }
@@ -172,6 +192,7 @@ fn answer(request: &Request, study: &Study, how: &How) -> Result<(), Ending> {
     let out = how.output.out.as_deref();
     // refused before a long computation, but staged after it
     out.map_or(Ok(()), |out| destination.try_out(out))?;
+    announce(request, study, how, &context, 1);
     let mut answer = request.ask(study, &context)?;
     let told = |answer: &dyn Answer| tell(how.output.json, how.output.quiet, answer);
     if let Some(out) = out {

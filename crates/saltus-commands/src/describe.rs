@@ -1,6 +1,7 @@
 //! The description of a study, and warnings of what is legal but probably not meant.
 
 use crate::failure::CommandError;
+use crate::words::short;
 use saltus::physics::BaseFrequency;
 use saltus_config::{AxisTable, SecondTable, Study};
 use serde::Serialize;
@@ -66,9 +67,9 @@ pub fn describe(study: &Study) -> Result<String, CommandError> {
         "plate",
         format!(
             "{} x {} x {} m, {} u + {} v + {} w terms, {} inertia",
-            plate.length,
-            plate.width,
-            plate.thickness,
+            short(plate.length),
+            short(plate.width),
+            short(plate.thickness),
             plate.modes.u.len(),
             plate.modes.v.len(),
             plate.modes.w.len(),
@@ -80,7 +81,11 @@ pub fn describe(study: &Study) -> Result<String, CommandError> {
             "jumper",
             format!(
                 "{} kg at ({}, {}) m, {} N/m, damping ratio {}",
-                jumper.mass, jumper.x, jumper.y, jumper.stiffness, jumper.damping_ratio
+                short(jumper.mass),
+                short(jumper.x),
+                short(jumper.y),
+                short(jumper.stiffness),
+                short(jumper.damping_ratio)
             ),
         );
     }
@@ -98,7 +103,7 @@ pub fn describe(study: &Study) -> Result<String, CommandError> {
 
 /// Questions, table by table.
 fn questions(study: &Study) -> Vec<(&'static str, String)> {
-    let range = |name: &str, from: f64, to: f64| format!("{name} from {from} to {to}");
+    let range = |name: &str, from, to| format!("{name} from {} to {}", short(from), short(to));
     let axis = |a: &AxisTable| range(&a.parameter, a.from(), a.to());
     let plane = |x: &AxisTable, y: &AxisTable| {
         let pixels = format!("{} x {} pixels", x.count(), y.count());
@@ -145,10 +150,11 @@ fn base(study: &Study) -> Result<String, CommandError> {
     let reading = match base.frequency {
         BaseFrequency::Hertz(_) => String::new(),
         BaseFrequency::Ratio { ratio, reference } => {
-            format!(" ({ratio} x the {} frequency)", reference.name())
+            format!(" ({} x the {} frequency)", short(ratio), reference.name())
         }
     };
-    Ok(format!("{} m at {hertz:.4} Hz{reading}", base.amplitude))
+    let amplitude = short(base.amplitude);
+    Ok(format!("{amplitude} m at {hertz:.4} Hz{reading}"))
 }
 
 /// A choice as the study file spells it.

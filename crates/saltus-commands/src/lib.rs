@@ -15,6 +15,7 @@ mod continuation;
 mod data;
 mod describe;
 mod destination;
+mod estimate;
 mod failure;
 mod frequencies;
 mod kinds;
@@ -46,6 +47,7 @@ pub use context::{Existing, Pieces, PiecesAt, Progress, RunContext, Stage, Unwat
 pub use continuation::Labelled;
 pub use describe::{describe, warnings};
 pub use destination::Destination;
+pub use estimate::Estimate;
 pub use failure::CommandError;
 pub use pieces::ShardReport;
 pub use request::Request;

@@ -3,6 +3,7 @@
 use crate::answer::{Answer, Told};
 use crate::context::RunContext;
 use crate::continuation::Labelled;
+use crate::estimate::Part;
 use crate::failure::CommandError;
 use crate::pieces::{Divided, ShardReport};
 use crate::quantities as q;
@@ -184,6 +185,24 @@ impl Request {
             Self::Lyapunov => lyapunov::ask(study, context),
             Self::Attractors => attractors::ask(study, context),
             Self::Reproduce { quick } => reproduce::ask(*quick, context),
+        }
+    }
+}
+
+/// The time that it takes; see [`Request::estimate`].
+impl Request {
+    /// The parts of its work, for a probe; nothing where there is none worth counting.
+    pub(crate) fn parts(&self, study: &Study, threads: usize) -> Result<Vec<Part>, CommandError> {
+        match self {
+            Self::Frequencies | Self::Orbit => Ok(Vec::new()),
+            Self::Simulate => simulate::parts(study),
+            Self::Sweep => sweep::parts(study, threads),
+            Self::Map => map::parts(study, threads),
+            Self::Basins { matched } => basins::parts(study, *matched, threads),
+            Self::Continue { .. } => continuation::parts(study, threads),
+            Self::Lyapunov => lyapunov::parts(study),
+            Self::Attractors => attractors::parts(study, threads),
+            Self::Reproduce { quick } => reproduce::parts(*quick, threads),
         }
     }
 }

@@ -56,6 +56,12 @@ pub(crate) fn axis(parameter: &Parameter) -> Axis {
     )))
 }
 
+/// A number as people write it: 4.2 and not 4.199999999999999.
+pub(crate) fn short(number: f64) -> f64 {
+    // a text of a number is one
+    format!("{number:.12e}").parse().unwrap_or(number)
+}
+
 /// As the first word of a label.
 pub(crate) fn capitalized(text: &str) -> String {
     let mut letters = text.chars();

@@ -11,5 +11,6 @@ mod orbit;
 mod plane;
 mod results;
 mod shards;
+mod shell;
 mod simulate;
 mod sweep;

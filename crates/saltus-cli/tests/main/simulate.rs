@@ -232,6 +232,55 @@ fn the_summary_is_for_people() {
             .and(contains("residual")),
     );
     run(&["--quiet"]).success().stderr("").stdout("");
+    let crowd = std::fs::read_to_string(&paper).unwrap();
+    let person = crowd
+        .split("[[jumper]]")
+        .nth(1)
+        .unwrap()
+        .split("[contact]")
+        .next()
+        .unwrap();
+    let crowd = format!("{crowd}\n") + &format!("[[jumper]]{person}\n").repeat(19);
+    std::fs::write(&paper, crowd).unwrap();
+    let text = run(&[]).success().stderr("").get_output().stdout.clone();
+    let text = String::from_utf8(text).unwrap();
+    assert!(
+        text.contains("20 x ") && text.contains("z/eta_0-19"),
+        "{text}"
+    );
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 100),
+        "{text}"
+    );
+}
+
+#[test]
+fn work_of_more_than_a_minute_is_told_before() {
+    use std::io::{BufRead, BufReader};
+    let desk = Desk::new();
+    let paper = desk.paper();
+    // ten million periods one after the other: no machine does them in a minute
+    let long = ["simulate", &paper, "--periods", "10000000"];
+    let mut child = Process::new(program())
+        .args(long)
+        .args(["--json", "--set", "plate.inertia=full"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut line = String::new();
+    let mut said = BufReader::new(child.stderr.take().unwrap());
+    said.read_line(&mut line).unwrap();
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(line.starts_with("note: simulate: about "), "{line}");
+    let words = [
+        "thread",
+        "probe of",
+        "\"slow-manifold\" would take",
+        "\"condensed\"",
+    ];
+    assert!(words.iter().all(|word| line.contains(word)), "{line}");
 }
 
 #[test]
@@ -263,7 +312,13 @@ fn rk4_agrees_with_taylor_and_refuses_an_unstable_step() {
     let desk = Desk::new();
     let paper = desk.paper();
     let rk4 = ["--set", "solver.method=rk4"];
-    let coarse = ["--set", "solver.steps_per_period=500"];
+    // what is stiff is in-plane motion with its own inertia
+    let coarse = [
+        "--set",
+        "solver.steps_per_period=500",
+        "--set",
+        "plate.inertia=full",
+    ];
     for command in ["simulate", "sweep"] {
         saltus(&[command, &paper, "--json", "--out", &desk.str("no")])
             .args(rk4)

@@ -8,6 +8,7 @@ mod summary;
 
 use crate::answer::{Answer, Take};
 use crate::context::RunContext;
+use crate::estimate::Part;
 use crate::failure::CommandError;
 use crate::models::Models;
 use crate::plane::{self, Loss};
@@ -65,6 +66,24 @@ fn followed(
     context.check()?;
     refuse_if_all_lost(&found.rows)?;
     Ok(found)
+}
+
+/// A trajectory for each first state.
+pub(crate) fn parts(study: &Study, threads: usize) -> Result<Vec<Part>, CommandError> {
+    plane::need_people(study, "a search for attractors")?;
+    let (parameter, values) = question(study)?;
+    let changed: Vec<&Parameter> = parameter.iter().collect();
+    let models = Models::new(study, &changed, study.options());
+    let (starts, search) = plan(study);
+    let periods = (search.transient + search.record) as f64;
+    let start_at = |i: usize| {
+        let own = &values[i / starts.count..][..changed.len()];
+        let model = models.at(own)?;
+        let start = starts.point(&model, i % starts.count);
+        Ok((model, start))
+    };
+    let count = values.len() * starts.count;
+    Ok(vec![Part::spread(count, threads, 0, periods, start_at)?])
 }
 
 /// The attractors along the sweep of [attractors], and the study's own value on it: what gives a picture of basins the

@@ -7,6 +7,7 @@ mod summary;
 use crate::answer::{Answer, Take};
 use crate::attractors;
 use crate::context::RunContext;
+use crate::estimate::Part;
 use crate::failure::CommandError;
 use crate::pieces::{self, Divided, PieceFolder};
 use crate::plane::{self, Begun, Cell, Layers, Pixels, Plane};
@@ -88,6 +89,19 @@ pub(crate) fn ask(
         basins,
         kept,
     }))
+}
+
+/// Its pixels, and the attractors that they are matched with.
+pub(crate) fn parts(
+    study: &Study,
+    matched: bool,
+    threads: usize,
+) -> Result<Vec<Part>, CommandError> {
+    let mut parts = job(study)?.parts(threads)?;
+    if matched {
+        parts.extend(attractors::parts(study, threads)?);
+    }
+    Ok(parts)
 }
 
 /// The basins as work that can be cut.

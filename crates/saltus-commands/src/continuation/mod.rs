@@ -11,6 +11,7 @@ mod view;
 
 use crate::answer::{Answer, Take};
 use crate::context::RunContext;
+use crate::estimate::Part;
 use crate::failure::CommandError;
 use crate::models::Models;
 use curves::Followed;
@@ -29,6 +30,9 @@ use view::View;
 
 /// Forcing periods per value of the cloud: left out, and shown.
 const CLOUD: (u64, u64) = (150, 50);
+
+/// Forcing periods that a point of a branch takes, about, with all tangents: those of the paper's case.
+const PER_POINT: f64 = 100.0;
 
 /// The finding.
 struct Found {
@@ -100,6 +104,28 @@ fn follow(
         curves,
         cloud,
     })
+}
+
+/// The cloud, and the tangents of orbits.
+pub(crate) fn parts(study: &Study, threads: usize) -> Result<Vec<Part>, CommandError> {
+    let question = Question::new(study)?;
+    let models = Models::new(study, &question.parameters(), study.options());
+    let along = question.along();
+    let start_at = |values: &[f64]| {
+        let model = models.at(values)?;
+        let start = model.start(study.start.z, study.start.v);
+        Ok((model, start))
+    };
+    let end = |i| start_at(&question.at([along.from, along.to][i]));
+    let cloud = f64::from(question.table.cloud) * (CLOUD.0 + CLOUD.1) as f64;
+    let first = start_at(&question.start)?;
+    let columns = first.0.free_states();
+    let orbits = Part::new([first], columns, question.points() * PER_POINT)?;
+    let cloud = Part::spread(2, threads, 0, cloud, end)?;
+    Ok([orbits]
+        .into_iter()
+        .chain((cloud.periods > 0.0).then_some(cloud))
+        .collect())
 }
 
 /// The orbit that the branches begin with.

@@ -75,6 +75,16 @@ impl Question {
         })
     }
 
+    /// Points of branches and curves, about: as many to a largest step as in the paper's case.
+    pub(super) fn points(&self) -> f64 {
+        let curves = |(table, _): &(SecondTable, Parameter)| match table.curves.len() {
+            0 => 8.0,
+            some => some as f64,
+        };
+        let curves = self.second.as_ref().map_or(0.0, curves);
+        (10.0 + 6.0 * curves) / self.table.step
+    }
+
     pub(super) fn options(&self) -> BranchesOptions {
         let usual = ContinuationOptions::default();
         BranchesOptions {

@@ -7,6 +7,7 @@ mod words;
 
 use crate::answer::{Answer, Take};
 use crate::context::RunContext;
+use crate::estimate::Part;
 use crate::failure::CommandError;
 use crate::repeats;
 use crate::status;
@@ -101,6 +102,22 @@ fn measure(
         growth,
         verdict,
     })
+}
+
+/// The motion, piece after piece, and the tangents of the pieces side by side.
+pub(crate) fn parts(study: &Study) -> Result<Vec<Part>, CommandError> {
+    let model = study.setup().model()?;
+    let how = question(study, &model)?;
+    let start = model.start(study.start.z, study.start.v);
+    let pieces = how.replicas as u64;
+    let before = how.transient + pieces.saturating_sub(1) * how.periods;
+    let motion = before + how.transient + how.periods + SEEN;
+    let replicas = vec![(model.clone(), start.clone()); how.replicas];
+    let tangents = (how.work() - before) as f64;
+    Ok(vec![
+        Part::new([(model, start)], 0, motion as f64)?,
+        Part::new(replicas, how.exponents, tangents)?,
+    ])
 }
 
 /// Whether people and plate come back together, as they are `until` periods after the start.

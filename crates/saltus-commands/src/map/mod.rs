@@ -5,6 +5,7 @@ mod summary;
 
 use crate::answer::{Answer, Take};
 use crate::context::RunContext;
+use crate::estimate::Part;
 use crate::failure::CommandError;
 use crate::models::Models;
 use crate::pieces::{self, Divided, PieceFolder};
@@ -50,6 +51,11 @@ pub(crate) fn ask(study: &Study, context: &RunContext) -> Result<Box<dyn Answer>
         layers,
         kept,
     }))
+}
+
+/// Its pixels.
+pub(crate) fn parts(study: &Study, threads: usize) -> Result<Vec<Part>, CommandError> {
+    job(study)?.parts(threads)
 }
 
 /// The map as work that can be cut.

@@ -1,7 +1,7 @@
 //! Summary of `saltus orbit` for people.
 
 use super::Found;
-use crate::per_jumper::column;
+use crate::per_jumper::{column, told};
 use crate::words::phase;
 use saltus::orbits::{Multiplier, Orbit, Stability};
 use std::f64::consts::TAU;
@@ -93,7 +93,7 @@ fn stability(orbit: &Orbit) -> String {
 
 fn each<T>(values: &[T], show: impl Fn(&T) -> String) -> String {
     let shown: Vec<String> = values.iter().map(show).collect();
-    shown.join("; ")
+    told(&shown, "; ")
 }
 
 fn list(values: impl Iterator<Item = String>) -> String {

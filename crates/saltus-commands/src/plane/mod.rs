@@ -5,6 +5,7 @@ mod data;
 mod figure;
 mod layers;
 
+use crate::estimate::Part;
 use crate::failure::CommandError;
 use crate::pieces::{Job, Reader, Sink, Writer};
 use saltus::hybrid::Point;
@@ -116,6 +117,25 @@ pub(super) struct Pixels<'a, F> {
     pub(super) plane: Plane,
     /// Model and start at values (x, y).
     pub(super) start_at: F,
+}
+
+impl<F: Fn(f64, f64) -> Begun> Pixels<'_, F> {
+    /// A trajectory for each pixel. Regular motions settle sooner, and chaos is followed longer to know it for chaos.
+    pub(super) fn parts(&self, threads: usize) -> Result<Vec<Part>, CommandError> {
+        let Plane { grid, search, .. } = &self.plane;
+        let periods = (search.transient + search.record) as f64;
+        let start_at = |pixel| {
+            let (x, y) = grid.at(pixel);
+            (self.start_at)(x, y)
+        };
+        Ok(vec![Part::spread(
+            grid.len(),
+            threads,
+            0,
+            periods,
+            start_at,
+        )?])
+    }
 }
 
 impl<F> Job for Pixels<'_, F>

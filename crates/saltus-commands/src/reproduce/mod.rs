@@ -11,6 +11,7 @@ use std::io::{self, Write};
 use std::sync::Arc;
 
 use saltus::hybrid::Method;
+use saltus::model::Setup;
 use saltus::physics::FrequencyReference::{Free, Occupied};
 use saltus::study::{Control, StudyError};
 use saltus_paper::{
@@ -19,6 +20,7 @@ use saltus_paper::{
 
 use crate::answer::{Answer, stream_json};
 use crate::context::RunContext;
+use crate::estimate::{LANES, Part};
 use crate::failure::CommandError;
 use crate::store::Store;
 use facts::Report;
@@ -48,6 +50,38 @@ pub(crate) fn study() -> Study {
 
 pub(crate) fn ask(quick: bool, context: &RunContext) -> Result<Box<dyn Answer>, CommandError> {
     Ok(Box::new(compute(quick, context)?))
+}
+
+/// The diagrams with all that is made of them, and the full model.
+pub(crate) fn parts(quick: bool, threads: usize) -> Result<Vec<Part>, CommandError> {
+    let effort = effort(quick);
+    let of = |inertia| {
+        let mut setup = Setup::dias_del_prado(0.3, 1.0);
+        setup.inertia = inertia;
+        let model = setup.model()?;
+        let start = model.start(3.0, 2.0);
+        Ok((model, start))
+    };
+    let periods = effort.diagram_periods() + 2 * effort.case_periods() + effort.panel_periods();
+    let full = effort.inertia_periods() as f64 / 2.0;
+    let spread = |periods: f64, inertia| {
+        // as many as fill any number of threads
+        let count = LANES * threads;
+        Part::spread(count, threads, 0, periods / count as f64, |_| of(inertia))
+    };
+    let condensed = spread(REST * periods as f64, saltus::model::Inertia::Condensed)?;
+    Ok(vec![condensed, spread(full, saltus::model::Inertia::Full)?])
+}
+
+/// What branches and facts take, as a multiple of the diagrams.
+const REST: f64 = 2.0;
+
+fn effort(quick: bool) -> Effort {
+    if quick {
+        Effort::quick()
+    } else {
+        Effort::full()
+    }
 }
 
 impl Answer for Results {
@@ -81,11 +115,7 @@ const DIAGRAMS: Method = Method::Taylor {
 };
 
 fn compute(quick: bool, context: &RunContext) -> Result<Results, CommandError> {
-    let effort = if quick {
-        Effort::quick()
-    } else {
-        Effort::full()
-    };
+    let effort = effort(quick);
     let control = Control {
         threads: context.threads,
         stop: Arc::clone(&context.stop),

@@ -7,6 +7,7 @@ mod summary;
 
 use crate::answer::{Answer, Take};
 use crate::context::RunContext;
+use crate::estimate::Part;
 use crate::failure::CommandError;
 use crate::status;
 use saltus::hybrid::Status;
@@ -60,6 +61,14 @@ fn instants(table: &SimulateTable, model: &Model) -> Result<Instants, CommandErr
         )),
         _ => Ok(Instants::At(times.clone())),
     }
+}
+
+/// One trajectory.
+pub(crate) fn parts(study: &Study) -> Result<Vec<Part>, CommandError> {
+    let model = study.setup().model_with_energy()?;
+    let start = model.start(study.start.z, study.start.v);
+    let periods = study.simulate.periods.into();
+    Ok(vec![Part::new([(model, start)], 0, periods)?])
 }
 
 impl Answer for Found {

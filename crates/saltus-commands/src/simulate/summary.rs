@@ -2,14 +2,15 @@
 
 use super::Found;
 use crate::data::motion::kind;
-use crate::per_jumper::column;
+use crate::per_jumper::{alike, shared_column, told};
 use crate::words::phase;
 use crate::{repeats, status};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-/// Section points, and of each the bodies and amplitudes, shown at most.
+/// Section points, and of each the amplitudes, shown at most; and bodies that differ.
 const LAST: usize = 5;
+const BODIES: usize = 2;
 
 pub(super) fn text(found: &Found) -> String {
     let mut text = String::new();
@@ -55,7 +56,7 @@ pub(super) fn text(found: &Found) -> String {
 
 fn each(values: &[f64], show: impl Fn(f64) -> String) -> String {
     let shown: Vec<String> = values.iter().map(|&value| show(value)).collect();
-    shown.join(", ")
+    told(&shown, ", ")
 }
 
 fn switches(found: &Found) -> String {
@@ -89,10 +90,20 @@ fn last_points(found: &Found) -> String {
     let section = &found.trajectory.section;
     let first = section.len().saturating_sub(LAST);
     let terms = &found.model.setup().plate.modes.w;
+    let body = |i: usize| {
+        let points = section[first..].iter();
+        let one = points.map(move |point| {
+            let (z, v) = (point.z[i], point.v[i]);
+            format!(" {z:>12.6} {v:>12.6} {:>9}", phase(point.phase[i]))
+        });
+        one.collect::<Vec<_>>()
+    };
+    let bodies: Vec<Vec<String>> = (0..found.jumpers()).map(body).collect();
+    let different = alike(&bodies);
+    let shown = &different[..different.len().min(BODIES)];
     let mut text = format!("\n{:>8}", "period");
-    let shown = found.jumpers().min(LAST);
-    for i in 0..shown {
-        let name = |name: &str| column(name, i, found.jumpers());
+    for run in shown {
+        let name = |name: &str| shared_column(name, run, bodies.len());
         let _ = write!(
             text,
             " {:>12} {:>12} {:>9}",
@@ -106,13 +117,16 @@ fn last_points(found: &Found) -> String {
     }
     for (index, point) in section.iter().enumerate().skip(first) {
         let _ = write!(text, "\n{:>8}", index + 1);
-        for i in 0..shown {
-            let (z, v) = (point.z[i], point.v[i]);
-            let _ = write!(text, " {z:>12.6} {v:>12.6} {:>9}", phase(point.phase[i]));
+        for run in shown {
+            text.push_str(&bodies[run.start][index - first]);
         }
         for w in point.w.iter().take(LAST) {
             let _ = write!(text, " {w:>12.3e}");
         }
+    }
+    if shown.len() < different.len() {
+        let last = shown.last().map_or(0, |run| run.end - 1);
+        let _ = write!(text, "\njumpers 0 to {last} of {}", bodies.len());
     }
     text + "\n"
 }

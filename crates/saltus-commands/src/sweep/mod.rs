@@ -7,6 +7,7 @@ mod summary;
 
 use crate::answer::{Answer, Take};
 use crate::context::{Existing, RunContext};
+use crate::estimate::Part;
 use crate::failure::CommandError;
 use crate::models::Models;
 use crate::pieces::{self, Divided, PieceFolder};
@@ -93,6 +94,35 @@ pub(crate) fn divided(study: &Study) -> Result<Box<dyn Divided + '_>, CommandErr
     refuse_if_too_many_exponents(table, &models)?;
     let sweep = plan(study, table);
     Ok(Box::new(Restarts::new(study, table, &sweep, models)))
+}
+
+/// A trajectory for each pass, or for each value of each pass; then those of the exponents.
+pub(crate) fn parts(study: &Study, threads: usize) -> Result<Vec<Part>, CommandError> {
+    let (table, parameter) = question(study)?;
+    let models = Models::new(study, &[&parameter], study.options());
+    let Sweep { values, passes, .. } = plan(study, table);
+    let start_at = |i: usize| {
+        let model = models.at(&[values[i % values.len()]])?;
+        let start = model.start(study.start.z, study.start.v);
+        Ok((model, start))
+    };
+    let rows = values.len() * passes.len();
+    let (columns, followed) = (table.exponents as usize, followed(table) as f64);
+    let each = periods(table) as f64 - followed;
+    let mut parts = vec![match table.direction {
+        Direction::Restarts => Part::spread(rows, threads, 0, each, start_at)?,
+        _ => Part::spread(
+            passes.len(),
+            threads,
+            0,
+            each * values.len() as f64,
+            start_at,
+        )?,
+    }];
+    if columns > 0 {
+        parts.push(Part::spread(rows, threads, columns, followed, start_at)?);
+    }
+    Ok(parts)
 }
 
 /// Each value anew, in pieces.
@@ -216,11 +246,15 @@ const PERIODS: &str = "periods, about";
 
 /// About how many of them a value takes.
 fn periods(table: &SweepTable) -> u64 {
-    let followed = match table.exponents {
+    u64::from(table.transient) + u64::from(table.record) + LABELLING + followed(table)
+}
+
+/// Those of them that exponents take.
+fn followed(table: &SweepTable) -> u64 {
+    match table.exponents {
         0 => 0,
         _ => table.exponent_periods.into(),
-    };
-    u64::from(table.transient) + u64::from(table.record) + LABELLING + followed
+    }
 }
 
 /// The rows, each with the kind of its motion and its exponents.
