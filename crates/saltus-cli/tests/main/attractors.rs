@@ -238,6 +238,7 @@ fn out_is_a_whole_folder_and_threads_do_not_change_a_bit() {
             "attractors.csv",
             "attractors.json",
             "attractors.nc",
+            "attractors.pdf",
             "attractors.png",
             "attractors.svg",
             "loops.csv",

@@ -107,6 +107,7 @@ fn the_branch_at_0_9_doubles_once() {
         names,
         [
             "branches.csv",
+            "branches.pdf",
             "branches.png",
             "branches.svg",
             "continue.json",

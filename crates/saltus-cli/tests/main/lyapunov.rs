@@ -185,6 +185,7 @@ fn out_is_a_folder_with_the_document_the_table_and_the_figure() {
         names,
         [
             "convergence.csv",
+            "convergence.pdf",
             "convergence.png",
             "convergence.svg",
             "lyapunov.json",

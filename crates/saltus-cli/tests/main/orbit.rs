@@ -127,10 +127,12 @@ fn out_is_a_whole_folder() {
         [
             "history.csv",
             "multipliers.csv",
+            "multipliers.pdf",
             "multipliers.png",
             "multipliers.svg",
             "orbit.json",
             "orbit.nc",
+            "portrait.pdf",
             "portrait.png",
             "portrait.svg",
             "saltus-result.json",

@@ -89,10 +89,12 @@ fn out_is_a_whole_folder_and_threads_do_not_change_a_bit() {
         (
             "map",
             &[
+                "layers.pdf",
                 "layers.png",
                 "layers.svg",
                 "map.json",
                 "map.nc",
+                "map.pdf",
                 "map.png",
                 "map.svg",
                 "saltus-result.json",
@@ -105,8 +107,10 @@ fn out_is_a_whole_folder_and_threads_do_not_change_a_bit() {
                 "attractors.csv",
                 "basins.json",
                 "basins.nc",
+                "basins.pdf",
                 "basins.png",
                 "basins.svg",
+                "layers.pdf",
                 "layers.png",
                 "layers.svg",
                 "saltus-result.json",

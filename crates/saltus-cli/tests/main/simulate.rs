@@ -151,8 +151,10 @@ fn out_is_a_whole_folder_and_again_replaces_it() {
         [
             "energy.csv",
             "history.csv",
+            "history.pdf",
             "history.png",
             "history.svg",
+            "portrait.pdf",
             "portrait.png",
             "portrait.svg",
             "saltus-result.json",

@@ -126,7 +126,7 @@ fn threads_do_not_change_a_bit() {
             (printed, files(&desk.path(&name)))
         };
         let one = run("1");
-        assert_eq!(one.1.len(), 8, "{:?}", one.1.keys());
+        assert_eq!(one.1.len(), 9, "{:?}", one.1.keys());
         for threads in ["2", "3"] {
             let more = run(threads);
             assert!(more.0 == one.0, "{threads} threads print another document");
@@ -145,6 +145,7 @@ fn out_is_a_whole_folder() {
     assert_eq!(
         names,
         [
+            "bifurcation.pdf",
             "bifurcation.png",
             "bifurcation.svg",
             "rows.csv",
