@@ -27,7 +27,7 @@ pub(crate) enum Command {
     /// Print a commented study file to start from
     Init(InitArgs),
     /// Read a study file, say what it describes, or what is wrong with it
-    Check(WorkArgs),
+    Check(CheckArgs),
     /// Print the JSON Schema of the study file
     Schema(SchemaArgs),
     /// Natural frequencies: empty plate, in its plane, with the people on it
@@ -181,6 +181,15 @@ pub(crate) struct WorkArgs {
     pub(crate) output: OutputArgs,
     #[command(flatten)]
     pub(crate) threads: ThreadArgs,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CheckArgs {
+    #[command(flatten)]
+    pub(crate) work: WorkArgs,
+    /// Say how long each question is expected to take, from a probe of each
+    #[arg(long)]
+    pub(crate) cost: bool,
 }
 
 /// Arguments of commands whose work can be cut into pieces.

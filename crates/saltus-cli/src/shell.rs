@@ -14,8 +14,10 @@ pub(crate) fn completions(args: &CompletionsArgs) -> Result<(), Ending> {
 }
 
 pub(crate) fn man(args: &ManArgs) -> Result<(), Ending> {
+    // it has no page
+    let grammar = grammar().disable_help_subcommand(true);
     let Some(dir) = &args.out else {
-        return output::print_with(|stdout| clap_mangen::Man::new(grammar()).render(stdout));
+        return output::print_with(|stdout| clap_mangen::Man::new(grammar).render(stdout));
     };
     let failed = |source: io::Error| ResultsError::Io {
         action: "write manual pages to",
@@ -23,6 +25,6 @@ pub(crate) fn man(args: &ManArgs) -> Result<(), Ending> {
         source,
     };
     fs::create_dir_all(dir)
-        .and_then(|()| clap_mangen::generate_to(grammar(), dir))
+        .and_then(|()| clap_mangen::generate_to(grammar, dir))
         .map_err(|error| failed(error).into())
 }

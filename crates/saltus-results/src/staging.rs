@@ -23,8 +23,9 @@ const TRIES: usize = 8;
 /// A folder whose content will go to a target. Dropping it removes it.
 #[derive(Debug)]
 pub struct Staging {
-    dir: TempDir,
+    // closed before the folder goes: some systems remove no open file
     _alive: File,
+    dir: TempDir,
 }
 
 impl Staging {
@@ -40,7 +41,7 @@ impl Staging {
             let dir = tempfile::Builder::new().prefix(&prefix).tempdir_in(home)?;
             let path = dir.path().join(ALIVE);
             let alive = locked(File::create(&path)?, &path)?;
-            Ok(Self { dir, _alive: alive })
+            Ok(Self { _alive: alive, dir })
         })
     }
 

@@ -116,6 +116,41 @@ fn check_json_is_one_document_with_the_resolved_study() {
 }
 
 #[test]
+fn check_says_what_each_question_costs_if_asked() {
+    let desk = Desk::new();
+    let short = ["--set", "plate.inertia=condensed", "--set", "map.x.count=2"];
+    let check = |more: &[&str]| {
+        let mut check = saltus(&["check", &desk.paper()]);
+        check.args(short).args(more);
+        check
+    };
+    let report = json(&mut check(&["--cost", "--json"]));
+    let of = |one: &serde_json::Value| one["command"].as_str().unwrap().to_owned();
+    let costs = report["cost"].as_array().unwrap();
+    let asked = [
+        "simulate",
+        "sweep",
+        "map",
+        "basins",
+        "continue",
+        "lyapunov",
+        "attractors",
+    ];
+    assert_eq!(costs.iter().map(of).collect::<Vec<_>>(), asked);
+    for cost in costs {
+        assert!(cost["seconds"].as_f64().unwrap() > 0.0, "{cost}");
+        assert!(cost["probed"].as_u64().unwrap() > 0, "{cost}");
+    }
+    // it changes from run to run, so it is not in what everybody sees
+    assert!(json(&mut check(&["--json"])).get("cost").is_none());
+    check(&["--cost"])
+        .assert()
+        .success()
+        .stdout(contains("cost       map: about "));
+    check(&[]).assert().success().stdout(contains("cost").not());
+}
+
+#[test]
 fn check_warns_of_what_moves_nothing_or_cannot_move() {
     let desk = Desk::new();
     let set = "plate.modes={ u = [], v = [], w = [[2, 1]] }";
