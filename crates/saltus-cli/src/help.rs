@@ -149,8 +149,8 @@ pub(crate) fn basins() -> String {
     let what = "\
 The study needs a [basins] table with [basins.x] and [basins.y], the keys
 start.z and start.v in either order; `saltus init paper` shows one. Each pixel
-is an initial condition of every jumper, with the plate at rest; it is run as for
-`saltus map`.
+is an initial condition of every jumper, with the plate at rest; it is run as
+for `saltus map`.
 
 Two cycles are the same attractor if they have the same period and their
 samples agree within 0.004 eta after some rotation. Motions that do not repeat

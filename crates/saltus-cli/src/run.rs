@@ -14,6 +14,7 @@ use saltus_commands::{
     RunContext, Shard,
 };
 use saltus_config::Study;
+use std::io::{self, IsTerminal};
 use std::time::Instant;
 
 /// Runs the command.
@@ -154,13 +155,14 @@ impl How<'_> {
     }
 }
 
-/// Says how long it will take if that is long; of work that is shared out among `of`, how long a share of it will.
+/// Says to a person how long it will take if that is long; of work that is shared out among `of`, how long a share of it
+/// will. Where nobody waits at a terminal nothing is probed.
 fn announce(request: &Request, study: &Study, how: &How, context: &RunContext, of: u32) {
     let computes = how
         .keep
         .as_ref()
         .is_none_or(|keep| keep.found != Existing::Merge);
-    if how.output.quiet || !computes {
+    if how.output.quiet || !computes || !io::stderr().is_terminal() {
         return;
     }
     let estimate = request

@@ -8,9 +8,18 @@ use saltus_results::{PieceStore, ResultsError};
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
-use std::sync::Barrier;
+use std::sync::{Barrier, PoisonError, RwLock, RwLockReadGuard};
 
 const WORK: [(&str, &str); 2] = [("study", "5f3a9c"), ("version", "0.1.0")];
+
+/// A process has the open locks of all tests between its fork and its program. Those that begin one write here, those whose
+/// locks must not outlive them read.
+static FORKS: RwLock<()> = RwLock::new(());
+
+/// Keeps processes from beginning while it lives.
+fn still() -> RwLockReadGuard<'static, ()> {
+    FORKS.read().unwrap_or_else(PoisonError::into_inner)
+}
 
 fn names(dir: &Path) -> Vec<String> {
     let mut names: Vec<_> = fs::read_dir(dir)
@@ -54,6 +63,7 @@ fn pieces_come_back_in_a_later_run_and_leave_without_trace() {
 
 #[test]
 fn damaged_pieces_are_reported_and_missing_until_written_again() {
+    let _still = still();
     let home = tempfile::tempdir().unwrap();
     let dir = home.path();
     four(dir);
@@ -86,6 +96,7 @@ fn damaged_pieces_are_reported_and_missing_until_written_again() {
 
 #[test]
 fn one_altered_bit_is_noticed_wherever_it_is() {
+    let _still = still();
     let home = tempfile::tempdir().unwrap();
     let dir = home.path();
     four(dir);
@@ -105,6 +116,7 @@ fn one_altered_bit_is_noticed_wherever_it_is() {
 
 #[test]
 fn a_piece_from_other_work_is_not_ours() {
+    let _still = still();
     let home = tempfile::tempdir().unwrap();
     let (ours, theirs) = (home.path().join("ours"), home.path().join("theirs"));
     four(&ours);
@@ -118,6 +130,7 @@ fn a_piece_from_other_work_is_not_ours() {
 
 #[test]
 fn other_work_is_refused_and_told_what_differs() {
+    let _still = still();
     let home = tempfile::tempdir().unwrap();
     four(home.path());
     let refusal = |work: &[(&str, &str)]| {
@@ -160,6 +173,7 @@ fn other_work_is_refused_and_told_what_differs() {
 
 #[test]
 fn a_killed_run_leaves_nothing_that_counts() {
+    let _still = still();
     let home = tempfile::tempdir().unwrap();
     let dir = home.path();
     four(dir);
@@ -182,6 +196,7 @@ fn a_killed_run_leaves_nothing_that_counts() {
 
 #[test]
 fn threads_share_a_store() {
+    let _still = still();
     let home = tempfile::tempdir().unwrap();
     let store = PieceStore::open(home.path(), &WORK).unwrap();
     std::thread::scope(|scope| {
@@ -199,6 +214,7 @@ fn threads_share_a_store() {
 
 #[test]
 fn a_folder_of_others_is_refused_and_their_files_stay() {
+    let _still = still();
     let home = tempfile::tempdir().unwrap();
     let thesis = home.path().join("thesis.tex");
     fs::write(&thesis, "years").unwrap();
@@ -216,6 +232,7 @@ fn a_folder_of_others_is_refused_and_their_files_stay() {
 
 #[test]
 fn the_pieces_of_a_result_lie_beside_it() {
+    let _still = still();
     let beside = |path: &str| pieces_beside(Path::new(path)).to_str().unwrap().to_owned();
     assert_eq!(beside("runs/map"), "runs/.map.saltus-pieces");
     assert_eq!(beside("map/"), ".map.saltus-pieces");
@@ -230,6 +247,7 @@ const STUDY: &str = "SALTUS_TEST_STUDY";
 
 /// A process that opens the folder as shared once its input is closed, and writes 40 pieces.
 fn start(dir: &Path, study: &str) -> Child {
+    let _forking = FORKS.write().unwrap_or_else(PoisonError::into_inner);
     Command::new(std::env::current_exe().unwrap())
         .args(["--exact", "shard", "--ignored"])
         .env(DIR, dir)
@@ -307,6 +325,7 @@ fn of_processes_with_different_work_one_kind_wins_whole() {
 
 #[test]
 fn threads_that_open_an_absent_folder_at_once_agree_on_its_work() {
+    let _still = still();
     for _ in 0..50 {
         let home = tempfile::tempdir().unwrap();
         let dir = home.path().join("pieces");
@@ -340,6 +359,7 @@ fn threads_that_open_an_absent_folder_at_once_agree_on_its_work() {
 
 #[test]
 fn who_shares_keeps_out_who_wants_it_alone_and_the_other_way_round() {
+    let _still = still();
     let home = tempfile::tempdir().unwrap();
     let dir = home.path();
     let one = PieceStore::open_shared(dir, &WORK).unwrap();
@@ -366,6 +386,7 @@ fn who_shares_keeps_out_who_wants_it_alone_and_the_other_way_round() {
 /// As on a file system that keeps locks to one machine: each is there and the others do not see it.
 #[test]
 fn without_locks_nobody_tidies_away_what_others_are_writing() {
+    let _still = still();
     let home = tempfile::tempdir().unwrap();
     let dir = home.path();
     let shared = PieceStore::open_shared(dir, &WORK).unwrap();
@@ -389,6 +410,7 @@ fn without_locks_nobody_tidies_away_what_others_are_writing() {
 
 #[test]
 fn there_is_nothing_to_merge_where_there_are_no_pieces() {
+    let _still = still();
     let home = tempfile::tempdir().unwrap();
     for dir in [home.path().join("nowhere"), home.path().to_path_buf()] {
         let error = PieceStore::open_to_merge(&dir, &WORK).unwrap_err();
@@ -414,6 +436,7 @@ fn there_is_nothing_to_merge_where_there_are_no_pieces() {
 
 #[test]
 fn a_file_of_somebody_that_ends_as_ours_do_stays() {
+    let _still = still();
     let home = tempfile::tempdir().unwrap();
     let foreign = home.path().join("foreign");
     fs::create_dir(&foreign).unwrap();
@@ -447,6 +470,7 @@ fn a_pipe_in_place_of_a_piece_or_of_the_manifest_is_not_waited_for() {
     four(home.path());
     let pipe = |path: &Path| {
         fs::remove_file(path).unwrap();
+        let _forking = FORKS.write().unwrap_or_else(PoisonError::into_inner);
         let made = std::process::Command::new("mkfifo").arg(path).status();
         assert!(made.unwrap().success());
     };

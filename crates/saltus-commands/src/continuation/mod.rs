@@ -11,7 +11,7 @@ mod view;
 
 use crate::answer::{Answer, Take};
 use crate::context::RunContext;
-use crate::estimate::Part;
+use crate::estimate::{LANES, Part};
 use crate::failure::CommandError;
 use crate::models::Models;
 use curves::Followed;
@@ -118,9 +118,11 @@ pub(crate) fn parts(study: &Study, threads: usize) -> Result<Vec<Part>, CommandE
     };
     let end = |i| start_at(&question.at([along.from, along.to][i]));
     let cloud = f64::from(question.table.cloud) * (CLOUD.0 + CLOUD.1) as f64;
-    let first = start_at(&question.start)?;
-    let columns = first.0.free_states();
-    let orbits = Part::new([first], columns, question.points() * PER_POINT)?;
+    let columns = start_at(&question.start)?.0.free_states();
+    // the segments of an orbit, and the columns of its derivative, fill all lanes
+    let first = |_| start_at(&question.start);
+    let mut orbits = Part::spread(LANES * threads, threads, columns, 1.0, first)?;
+    orbits.periods = question.points() * PER_POINT;
     let cloud = Part::spread(2, threads, 0, cloud, end)?;
     Ok([orbits]
         .into_iter()
