@@ -227,6 +227,9 @@ pub(crate) struct ContinueArgs {
     /// Label of a special point, such as PD1: its orbit
     #[arg(long, value_name = "LABEL", requires = "from")]
     pub(crate) at: Option<String>,
+    /// Draw the curves over the map of this earlier result of `saltus map`
+    #[arg(long, value_name = "DIR")]
+    pub(crate) over: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

@@ -65,7 +65,10 @@ fn expected(study: &Study, threads: Option<u16>) -> Vec<Estimate> {
         Request::Sweep,
         Request::Map,
         Request::Basins { matched: false },
-        Request::Continue { origin: None },
+        Request::Continue {
+            origin: None,
+            over: None,
+        },
         Request::Lyapunov,
         Request::Attractors,
     ];

@@ -216,7 +216,14 @@ switches.";
 Figures: branches and curves, as SVG and PNG. Behind the branches lie the
 long-term motions at continue.cloud values, 50 forcing periods after 150, the
 state carried on upwards and downwards.";
-    text(what, &Request::Continue { origin: None }, tables)
+    text(
+        what,
+        &Request::Continue {
+            origin: None,
+            over: None,
+        },
+        tables,
+    )
 }
 
 /// Below `saltus lyapunov --help`.

@@ -97,7 +97,8 @@ fn basins(args: &BasinsArgs) -> Result<(), Ending> {
 fn continuation(args: &ContinueArgs) -> Result<(), Ending> {
     let origin = args.from.clone().zip(args.at.clone());
     let origin = origin.map(|(from, at)| Labelled { from, at });
-    work(&Request::Continue { origin }, &args.work)
+    let over = args.over.clone();
+    work(&Request::Continue { origin, over }, &args.work)
 }
 
 fn reproduce(args: &ReproduceArgs) -> Result<(), Ending> {

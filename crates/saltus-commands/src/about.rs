@@ -186,7 +186,7 @@ mod tests {
         let from = std::ffi::OsString::from_vec(b"old\xff".to_vec()).into();
         let at = "PD1".to_owned();
         let origin = Some(crate::continuation::Labelled { from, at });
-        let told = about(&Request::Continue { origin }, &Study::paper());
+        let told = about(&Request::Continue { origin, over: None }, &Study::paper());
         assert_eq!(told["request"]["origin"]["from"], "old\u{fffd}");
     }
 

@@ -15,7 +15,8 @@ use crate::{
 };
 use saltus_config::Study;
 use saltus_results::Quantity;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
+use std::path::PathBuf;
 
 /// A question. What it is about stands in the study, but for what is said here.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -42,6 +43,13 @@ pub enum Request {
         /// Begin at a labelled orbit of an earlier result.
         #[serde(default)]
         origin: Option<Labelled>,
+        /// Folder of a map to draw the curves over.
+        #[serde(
+            default,
+            skip_serializing_if = "Option::is_none",
+            serialize_with = "readable"
+        )]
+        over: Option<PathBuf>,
     },
     /// Lyapunov exponents.
     Lyapunov,
@@ -53,6 +61,12 @@ pub enum Request {
         #[serde(default)]
         quick: bool,
     },
+}
+
+/// A path whose name is no text is written as far as it is one: a manifest must not fail for it.
+fn readable<S: Serializer>(path: &Option<PathBuf>, to: S) -> Result<S::Ok, S::Error> {
+    let text = path.as_ref().map(|path| path.display().to_string());
+    text.serialize(to)
 }
 
 impl Request {
@@ -158,6 +172,7 @@ impl Request {
         match self {
             Self::Continue {
                 origin: Some(origin),
+                ..
             } => continuation::adopted(origin, study),
             Self::Reproduce { .. } => Ok(reproduce::study()),
             _ => Ok(study.clone()),
@@ -181,7 +196,9 @@ impl Request {
             Self::Map => map::ask(study, context),
             Self::Basins { matched } => basins::ask(study, *matched, context),
             Self::Orbit => orbit::ask(study, context),
-            Self::Continue { origin } => continuation::ask(study, origin.as_ref(), context),
+            Self::Continue { origin, over } => {
+                continuation::ask(study, origin.as_ref(), over.as_deref(), context)
+            }
             Self::Lyapunov => lyapunov::ask(study, context),
             Self::Attractors => attractors::ask(study, context),
             Self::Reproduce { quick } => reproduce::ask(*quick, context),

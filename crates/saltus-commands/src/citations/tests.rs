@@ -46,7 +46,10 @@ fn requests() -> [Request; 11] {
         Request::Basins { matched: false },
         Request::Basins { matched: true },
         Request::Orbit,
-        Request::Continue { origin: None },
+        Request::Continue {
+            origin: None,
+            over: None,
+        },
         Request::Lyapunov,
         Request::Attractors,
         Request::Reproduce { quick: true },
@@ -96,7 +99,10 @@ fn a_request_cites_what_it_uses_and_nothing_else() {
     let simulate = ["DP", "JZ2005", "MRR2005", "saltus"];
     assert_eq!(of(Request::Frequencies), ["DP", "saltus"].into());
     assert_eq!(of(Request::Simulate), simulate.into());
-    let branches = of(Request::Continue { origin: None });
+    let branches = of(Request::Continue {
+        origin: None,
+        over: None,
+    });
     for key in ["Keller1977", "Kuznetsov2004", "Nordmark1991", "BBCK2008"] {
         assert!(branches.contains(key), "{key}");
     }

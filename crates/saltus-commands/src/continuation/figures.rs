@@ -72,7 +72,10 @@ fn curves(found: &Found) -> Figure {
     let first = axis(&found.question.parameter, table.from, table.to);
     let second = found.question.second.as_ref();
     let second = second.map_or(Axis::new(""), |(t, p)| axis(p, t.from, t.to));
-    let mut set = BifurcationSet::new("Bifurcations of periodic orbits", first, second);
+    let mut set = match &found.over {
+        Some(map) => BifurcationSet::over(map.clone()),
+        None => BifurcationSet::new("Bifurcations of periodic orbits", first, second),
+    };
     for followed in &found.curves {
         if let (Some(special), Ok(curve)) = (&followed.special, &followed.outcome) {
             let points = curve.points.iter().map(|point| point.parameters.into());

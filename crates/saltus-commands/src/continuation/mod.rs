@@ -5,6 +5,7 @@ mod data;
 mod diagram;
 mod figures;
 mod origin;
+mod over;
 mod question;
 mod summary;
 mod view;
@@ -23,7 +24,8 @@ use saltus::model::{Model, ModelError};
 use saltus::orbits::{BranchWithOrigin, NewtonOptions, Orbit, Stroboscopic, branches, find_orbit};
 use saltus::study::{Control, OrbitSearch, Pass, Sweep, SweepRow, orbit_of, stroboscopic, sweep};
 use saltus_config::Study;
-use saltus_results::Dataset;
+use saltus_results::{ClassMap, Dataset};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use view::View;
@@ -41,6 +43,8 @@ struct Found {
     model: Model,
     question: Question,
     limbs: Vec<BranchWithOrigin>,
+    /// The map under the curves.
+    over: Option<ClassMap>,
     /// The limbs in the paper's units.
     views: Vec<View>,
     curves: Vec<Followed>,
@@ -55,12 +59,17 @@ pub(crate) fn adopted(origin: &Labelled, study: &Study) -> Result<Study, Command
 pub(crate) fn ask(
     study: &Study,
     origin: Option<&Labelled>,
+    over: Option<&Path>,
     context: &RunContext,
 ) -> Result<Box<dyn Answer>, CommandError> {
     let origin = origin.map(|origin| Origin::read(&origin.from, &origin.at));
     let origin = origin.transpose()?;
     let question = Question::new(study)?;
-    Ok(Box::new(follow(study, question, origin.as_ref(), context)?))
+    let over = over
+        .map(|folder| over::map(folder, &question))
+        .transpose()?;
+    let found = follow(study, question, origin.as_ref(), context)?;
+    Ok(Box::new(Found { over, ..found }))
 }
 
 fn follow(
@@ -99,6 +108,7 @@ fn follow(
         study: study.clone(),
         model,
         question,
+        over: None,
         limbs,
         views,
         curves,

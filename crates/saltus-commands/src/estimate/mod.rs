@@ -234,7 +234,10 @@ mod tests {
             Request::Basins { matched: false },
             Request::Lyapunov,
             Request::Attractors,
-            Request::Continue { origin: None },
+            Request::Continue {
+                origin: None,
+                over: None,
+            },
             Request::Reproduce { quick: true },
         ]
     }

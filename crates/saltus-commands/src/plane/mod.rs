@@ -18,7 +18,7 @@ use std::sync::atomic::Ordering;
 use crate::words;
 pub(super) use cell::{Cell, Loss};
 pub(super) use data::data;
-pub(super) use figure::layers_figure;
+pub(crate) use figure::{layers_figure, motions};
 pub(super) use layers::{Layers, Status, Tally, period};
 use layers::{Span, span};
 

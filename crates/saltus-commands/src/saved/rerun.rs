@@ -119,6 +119,7 @@ impl SavedResult {
         match &self.request {
             Request::Continue {
                 origin: Some(origin),
+                ..
             } if !origin.from.is_dir() => Err(CommandError::work(
                 format!(
                     "`{}` begins at {} of an earlier result, and `{}` is not there",
@@ -163,6 +164,7 @@ impl SavedResult {
         }
         if let Request::Continue {
             origin: Some(origin),
+            ..
         } = &self.request
         {
             let from = path(&origin.from);

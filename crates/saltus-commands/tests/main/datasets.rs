@@ -199,7 +199,13 @@ fn branches_are_points_one_after_the_other() {
         (table.from, table.to, table.cloud) = (0.15, 0.35, 2);
         table.second = None;
     });
-    let set = data(&Request::Continue { origin: None }, &study);
+    let set = data(
+        &Request::Continue {
+            origin: None,
+            over: None,
+        },
+        &study,
+    );
     let (z, period) = (array(&set, "z"), array(&set, "period"));
     let texts = |name| match array(&set, name).values {
         Values::Text(texts) => texts.clone(),
