@@ -258,12 +258,12 @@ pub(crate) fn attractors() -> String {
 The table [attractors] says from which box initial conditions are drawn, evenly
 but without a pattern; `saltus init paper` shows one. Without the keys
 parameter, from, to and count it asks at the study's own parameters, with them
-at each value. There each attractor is also carried to the values beside, up to where
-it ends. So rare ones are found too, and one that merely changes, as by
-doubling its period, keeps its number. Motions are told apart as for
-`saltus basins`; here slow transients are run on to what they become, every
-cycle is confirmed by Newton's method and its Floquet multipliers, and chaos is
-watched: eight motions on it, for 12 000 forcing periods each.";
+at each value. There each attractor is also carried to the values beside, up to
+where it ends. So rare ones are found too, and one that merely changes, as by
+doubling its period, keeps its number. Motions are told apart as for `saltus
+basins`; here slow transients are run on to what they become, every cycle is
+confirmed by Newton's method and its Floquet multipliers, and chaos is watched:
+eight motions on it, for 12 000 forcing periods each.";
     let tables = "\
   attractors: one row per value and attractor met there; sections: their samples
   (in JSON a list for each jumper); ranges: where each attractor begins and

@@ -257,35 +257,6 @@ fn the_summary_is_for_people() {
 }
 
 #[test]
-fn work_of_more_than_a_minute_is_told_before() {
-    use std::io::{BufRead, BufReader};
-    let desk = Desk::new();
-    let paper = desk.paper();
-    // ten million periods one after the other: no machine does them in a minute
-    let long = ["simulate", &paper, "--periods", "10000000"];
-    let mut child = Process::new(program())
-        .args(long)
-        .args(["--json", "--set", "plate.inertia=full"])
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    let mut line = String::new();
-    let mut said = BufReader::new(child.stderr.take().unwrap());
-    said.read_line(&mut line).unwrap();
-    child.kill().unwrap();
-    child.wait().unwrap();
-    assert!(line.starts_with("note: simulate: about "), "{line}");
-    let words = [
-        "thread",
-        "probe of",
-        "\"slow-manifold\" would take",
-        "\"condensed\"",
-    ];
-    assert!(words.iter().all(|word| line.contains(word)), "{line}");
-}
-
-#[test]
 fn a_run_that_ends_early_is_told_in_full_and_ends_with_1() {
     let desk = Desk::new();
     let (paper, out) = (desk.paper(), desk.str("results"));
