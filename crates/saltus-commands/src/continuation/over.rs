@@ -64,7 +64,7 @@ pub(super) fn map(folder: &Path, question: &Question) -> Result<ClassMap, Comman
 
 /// An array as numbers; empty if there is none of that name.
 fn numbers(data: &Dataset, name: &str) -> Vec<f64> {
-    match data.get(name).map(|variable| variable.values()) {
+    match data.get(name).map(saltus_results::Variable::values) {
         Some(Values::F64(values)) => values.clone(),
         Some(Values::I32(values)) => values.iter().copied().map(f64::from).collect(),
         Some(Values::U16(values)) => values.iter().copied().map(f64::from).collect(),
