@@ -135,6 +135,9 @@ class Table(Mapping[str, NDArray[Any]]):
 class Drawing(Protocol):
     """A figure as the native module draws it, or as it was drawn before."""
 
+    def styled(self, width: str | None, font_size: str, titles: bool) -> Drawing:
+        """Return the same of another look."""
+
     def svg(self) -> str:
         """As SVG."""
 
@@ -150,6 +153,13 @@ class Drawn:
 
     def __init__(self, svg: bytes, pdf: bytes, png: bytes) -> None:
         self._svg, self._pdf, self._png = svg, pdf, png
+
+    def styled(self, width: str | None, font_size: str, titles: bool) -> Drawing:
+        """It was drawn with its look."""
+        raise ValueError(
+            "a figure that was loaded keeps its look: ask the question again, as by "
+            "saltus.rerun, or plot its arrays"
+        )
 
     def svg(self) -> str:
         """As it was written."""
@@ -235,7 +245,15 @@ class Figure:
             raise ValueError(f"scale is {scale}: 0.1 to 20 would do")
         return self._drawing.png(scale)
 
-    def save(self, path: str | os.PathLike[str], scale: float = SCALE) -> None:
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        scale: float = SCALE,
+        *,
+        width: str | None = None,
+        font_size: str = "8pt",
+        titles: bool = True,
+    ) -> None:
         """Write the figure to a file, whole or not at all.
 
         Parameters
@@ -243,12 +261,19 @@ class Figure:
         path : path
             A name that ends in ``.svg``, ``.pdf`` or ``.png``.
         scale : float
-            Pixels of a PNG per unit of the SVG.
+            Pixels of a PNG per unit of the SVG; one of a given width has 600 to an inch.
+        width : str, optional
+            Width in print, such as ``"85mm"`` (a column) or ``"170mm"`` (a page).
+        font_size : str
+            Size of the labels in print, where a width is given.
+        titles : bool
+            Whether titles stand in the figure; a journal has them in the caption.
 
         Raises
         ------
         ValueError
-            If the name has another ending.
+            If the name has another ending, a length is none, or another look is asked of a
+            figure that was loaded.
         ResultError
             If the file cannot be written.
 
@@ -259,7 +284,11 @@ class Figure:
         >>> study = saltus.Study.paper().set({"plate.inertia": "condensed"})
         >>> figure = saltus.simulate(study, periods=3).figures["portrait"]
         >>> figure.save(f"{tempfile.mkdtemp()}/portrait.svg")
+        >>> figure.save(f"{tempfile.mkdtemp()}/portrait.pdf", width="85mm", titles=False)
         """
+        if width is not None or not titles:
+            styled = Figure(self.name, self._drawing.styled(width, font_size, titles), self.about)
+            return styled.save(path, scale)
         path = Path(path)
         match path.suffix.lower():
             case ".svg":

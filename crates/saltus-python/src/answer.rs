@@ -4,7 +4,7 @@ use crate::error;
 use crate::running::{Board, Listener, aside, attended, sound};
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::IntoPyObjectExt;
-use pyo3::exceptions::PyUserWarning;
+use pyo3::exceptions::{PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
 use saltus_commands::{
@@ -13,7 +13,7 @@ use saltus_commands::{
 };
 use saltus_config::Study;
 use saltus_results::{
-    Attribute, Cells, Dataset, Figure as Drawing, NamedColumn, Values, Variable,
+    Attribute, Cells, Dataset, Figure as Drawing, FigureStyle, NamedColumn, Values, Variable,
     write_file_atomically,
 };
 use std::borrow::Cow;
@@ -317,6 +317,20 @@ impl Figure {
     /// As SVG.
     fn svg(&self, py: Python<'_>) -> PyResult<String> {
         sound(|| Ok(py.detach(|| self.drawing.svg())))
+    }
+
+    /// The same figure of a width and size of type in print, with or without titles.
+    fn styled(&self, width: Option<&str>, font_size: &str, titles: bool) -> PyResult<Self> {
+        let styled = || {
+            let style = FigureStyle::default().titles(titles).font_size(font_size)?;
+            match width {
+                Some(width) => style.width(width),
+                None => Ok(style),
+            }
+        };
+        let style = styled().map_err(|error| PyValueError::new_err(error.to_string()))?;
+        let drawing = self.drawing.clone().style(style);
+        Ok(Self { drawing })
     }
 
     /// As PDF.
