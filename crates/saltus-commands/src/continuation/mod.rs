@@ -31,8 +31,8 @@ use view::View;
 /// Forcing periods per value of the cloud: left out, and shown.
 const CLOUD: (u64, u64) = (150, 50);
 
-/// Forcing periods that a point of a branch takes, about, with all tangents: those of the paper's case.
-const PER_POINT: f64 = 100.0;
+/// Forcing periods that a point of a branch takes, about, with all tangents in one lane: as in the paper's case.
+const PER_POINT: f64 = 7.0;
 
 /// The finding.
 struct Found {
