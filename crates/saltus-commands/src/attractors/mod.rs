@@ -75,7 +75,7 @@ pub(crate) fn parts(study: &Study, threads: usize) -> Result<Vec<Part>, CommandE
     let changed: Vec<&Parameter> = parameter.iter().collect();
     let models = Models::new(study, &changed, study.options());
     let (starts, search) = plan(study);
-    let periods = (search.transient + search.record) as f64;
+    let periods = plane::settling(&search);
     let start_at = |i: usize| {
         let own = &values[i / starts.count..][..changed.len()];
         let model = models.at(own)?;

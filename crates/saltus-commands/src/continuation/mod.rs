@@ -12,7 +12,7 @@ mod view;
 
 use crate::answer::{Answer, Take};
 use crate::context::RunContext;
-use crate::estimate::{LANES, Part};
+use crate::estimate::Part;
 use crate::failure::CommandError;
 use crate::models::Models;
 use curves::Followed;
@@ -33,8 +33,8 @@ use view::View;
 /// Forcing periods per value of the cloud: left out, and shown.
 const CLOUD: (u64, u64) = (150, 50);
 
-/// Forcing periods that a point of a branch takes, about, with all tangents: those of the paper's case.
-const PER_POINT: f64 = 100.0;
+/// Forcing periods that a point of a branch takes, about, with all tangents in one lane: as in the paper's case.
+const PER_POINT: f64 = 7.0;
 
 /// The finding.
 struct Found {
@@ -128,11 +128,9 @@ pub(crate) fn parts(study: &Study, threads: usize) -> Result<Vec<Part>, CommandE
     };
     let end = |i| start_at(&question.at([along.from, along.to][i]));
     let cloud = f64::from(question.table.cloud) * (CLOUD.0 + CLOUD.1) as f64;
-    let columns = start_at(&question.start)?.0.free_states();
-    // the segments of an orbit, and the columns of its derivative, fill all lanes
-    let first = |_| start_at(&question.start);
-    let mut orbits = Part::spread(LANES * threads, threads, columns, 1.0, first)?;
-    orbits.periods = question.points() * PER_POINT;
+    let first = start_at(&question.start)?;
+    let columns = first.0.free_states();
+    let orbits = Part::new([first], columns, question.points() * PER_POINT)?;
     let cloud = Part::spread(2, threads, 0, cloud, end)?;
     Ok([orbits]
         .into_iter()

@@ -84,7 +84,7 @@ impl fmt::Display for Estimate {
 /// Seconds, minutes, hours or days, to two digits.
 fn duration(seconds: f64) -> String {
     let units = [
-        (60.0, 1.0, "s"),
+        (100.0, 1.0, "s"),
         (7200.0, 60.0, "minutes"),
         (172_800.0, 3600.0, "hours"),
     ];
@@ -273,8 +273,8 @@ mod tests {
             assert!(slow.others.is_empty(), "{slow}");
         }
         let map = estimate(&Request::Map, &study(), 1.0).expect("it has work");
-        // 64 x 64 pixels of 400 + 64 periods
-        assert_eq!(map.periods, 4096.0 * 464.0);
+        // 64 x 64 pixels, half of 400 + 64 periods and a fourth of 2000 + 500
+        assert_eq!(map.periods, 4096.0 * (232.0 + 625.0));
     }
 
     #[test]
@@ -307,7 +307,8 @@ mod tests {
         for (seconds, text) in [
             (0.01, "1 s"),
             (60.0, "60 s"),
-            (90.0, "2 minutes"),
+            (90.0, "90 s"),
+            (100.1, "2 minutes"),
             (4000.0, "67 minutes"),
             (10_000.0, "3 hours"),
             (1e6, "12 days"),

@@ -73,8 +73,9 @@ pub(crate) fn parts(quick: bool, threads: usize) -> Result<Vec<Part>, CommandErr
     Ok(vec![condensed, spread(full, saltus::model::Inertia::Full)?])
 }
 
-/// What branches and facts take, as a multiple of the diagrams.
-const REST: f64 = 2.0;
+/// All of it as a multiple of the periods of its diagrams, cases and panels: branches, transients and facts take the
+/// most, and a run took more than 225 s of processor time where these alone take some 30.
+const REST: f64 = 12.0;
 
 fn effort(quick: bool) -> Effort {
     if quick {
