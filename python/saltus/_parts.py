@@ -288,7 +288,8 @@ class Figure:
         """
         if width is not None or not titles:
             styled = Figure(self.name, self._drawing.styled(width, font_size, titles), self.about)
-            return styled.save(path, scale)
+            styled.save(path, scale)
+            return
         path = Path(path)
         match path.suffix.lower():
             case ".svg":
