@@ -286,7 +286,7 @@ class Figure:
         >>> figure.save(f"{tempfile.mkdtemp()}/portrait.svg")
         >>> figure.save(f"{tempfile.mkdtemp()}/portrait.pdf", width="85mm", titles=False)
         """
-        if width is not None or not titles:
+        if width is not None or not titles or font_size != "8pt":
             styled = Figure(self.name, self._drawing.styled(width, font_size, titles), self.about)
             styled.save(path, scale)
             return

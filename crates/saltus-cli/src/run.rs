@@ -138,7 +138,9 @@ impl How<'_> {
             stop: interrupt::flag(),
             watch: bars,
             keep: self.keep.clone(),
-            figures: figures.map_err(CommandError::from)?,
+            figures: figures.map_err(|error| {
+                CommandError::refused(error.to_string(), "see --figure-width and --font-size")
+            })?,
         })
     }
 

@@ -47,7 +47,7 @@ pub(crate) fn shared_column(name: &str, of: &Range<usize>, jumpers: usize) -> St
     }
 }
 
-/// What each jumper has, the same once: `20 x 99.00`, and of many different ones the first.
+/// Texts of all jumpers, equal ones once: `20 x 99.00`, and of many different ones the first.
 pub(crate) fn told(all: &[String], between: &str) -> String {
     let runs = alike(all);
     let one = |run: &Range<usize>| match run.len() {

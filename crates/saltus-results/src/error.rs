@@ -164,11 +164,11 @@ pub enum ResultsError {
     /// A size of figures that is none.
     #[error("the {what} is `{given}`; right is {right}")]
     FigureStyle {
-        /// What was given.
+        /// Name of the size.
         what: &'static str,
         /// The refused words.
         given: String,
-        /// What would be right.
+        /// Words for a right one.
         right: &'static str,
     },
     /// The rasteriser refused the figure.

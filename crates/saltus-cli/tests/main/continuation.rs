@@ -4,6 +4,7 @@ use crate::common::{Desk, files, json, saltus};
 use predicates::prelude::*;
 use predicates::str::contains;
 use serde_json::Value;
+use std::fs;
 
 /// Branches alone.
 const SMALL: [&str; 8] = [
@@ -348,4 +349,54 @@ fn the_summary_has_a_line_for_each_special_point() {
                 .and(contains("branch 1: period 2 from PD1"))
                 .and(contains("PD1   period doubling         0.18928651")),
         );
+}
+
+#[test]
+fn curves_are_drawn_over_the_map_of_an_earlier_result() {
+    let desk = Desk::new();
+    let (paper, map, out) = (desk.paper(), desk.str("map"), desk.str("branches"));
+    let condensed = ["--quiet", "--set", "plate.inertia=condensed"];
+    saltus(&["map", &paper, "--out", &map])
+        .args(condensed)
+        .args(["--set", "map.x.count=5", "--set", "map.y.count=4"])
+        .args(["--set", "map.exponent=0", "--set", "map.transient=100"])
+        .assert()
+        .success();
+    let asked = [
+        "continue",
+        &paper,
+        "--set",
+        "continue.cloud=0",
+        "--set",
+        "continue.doublings=0",
+        "--set",
+        "continue.second.curves=['LP1']",
+    ];
+    saltus(&asked)
+        .args(condensed)
+        .args(["--over", &map, "--out", &out])
+        .assert()
+        .success();
+    let curves = fs::read_to_string(desk.path("branches/curves.svg")).unwrap();
+    assert!(curves.contains("Every 2 periods") && curves.contains("Fold"));
+    // neither a result of another question nor a map of other parameters is drawn under curves
+    saltus(&asked)
+        .args(condensed)
+        .args(["--over", &out])
+        .assert()
+        .code(2)
+        .stderr(contains("saltus continue").and(contains("--over takes")));
+    saltus(&asked)
+        .args(condensed)
+        .args(["--set", "continue.second.parameter=base.amplitude"])
+        .args([
+            "--set",
+            "continue.second.from=0.012",
+            "--set",
+            "continue.second.to=0.014",
+        ])
+        .args(["--over", &map])
+        .assert()
+        .code(2)
+        .stderr(contains("its axes are"));
 }

@@ -257,6 +257,24 @@ fn the_summary_is_for_people() {
 }
 
 #[test]
+fn a_size_of_figures_that_is_none_is_refused_before_any_work() {
+    let desk = Desk::new();
+    let (paper, out) = (desk.paper(), desk.str("results"));
+    for sizes in [
+        vec!["--figure-width", "85"],
+        vec!["--figure-width", "NaNmm"],
+        vec!["--figure-width", "85mm", "--font-size", "0pt"],
+    ] {
+        saltus(&["simulate", &paper, "--out", &out])
+            .args(&sizes)
+            .assert()
+            .code(2)
+            .stderr(contains("such as 8").and(contains(sizes[sizes.len() - 1])));
+        assert!(!desk.path("results").exists());
+    }
+}
+
+#[test]
 fn a_run_that_ends_early_is_told_in_full_and_ends_with_1() {
     let desk = Desk::new();
     let (paper, out) = (desk.paper(), desk.str("results"));

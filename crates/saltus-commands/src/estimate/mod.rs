@@ -153,7 +153,7 @@ impl Part {
     }
 }
 
-/// What a probe of a part found.
+/// Finding of a probe of a part.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pace {
     /// Forcing periods run.

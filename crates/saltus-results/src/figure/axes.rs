@@ -78,7 +78,7 @@ impl Side {
         (LONG + SPACE + numbers + self.label_room()).ceil()
     }
 
-    /// What the last number of a horizontal axis needs beyond the frame of `length` (px).
+    /// Room that the last number of a horizontal axis needs beyond the frame of `length` (px).
     pub(crate) fn right_room(&self, length: f64) -> f64 {
         let beyond = |tick: &Tick| tick.pixel + 0.5 * width(&tick.text, TICK) - length;
         self.ticks.iter().map(beyond).fold(0.0, f64::max)

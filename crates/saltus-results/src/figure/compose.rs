@@ -349,7 +349,7 @@ impl Sheet {
 /// Bold type is wider than the regular type that lines are broken by.
 const BOLDER: f64 = 1.14;
 
-/// What each panel shows over what, for those who do not see it.
+/// Quantities of each panel, for those who do not see it.
 fn description(figure: &Figure) -> String {
     let axes = |panel: &Panel| {
         let title = if panel.title.is_empty() {

@@ -111,7 +111,7 @@ impl Line {
     }
 }
 
-/// What a script takes from `from` on, and where the rest begins.
+/// Letters of a script from `from` on, and the place of the rest.
 fn group(letters: &[char], from: usize) -> (String, usize) {
     if letters.get(from) == Some(&'{') {
         let inside = letters[from + 1..].iter().take_while(|&&c| c != '}');

@@ -11,18 +11,22 @@ use tiny_skia::{
     PremultipliedColorU8, Stroke, Transform,
 };
 
-/// Pixels of a PNG per inch where the figure has a size in print.
+/// Pixels of a PNG per inch where the figure has a size in print, and the most in all: a poster has fewer to an inch.
 const INCH: f64 = 600.0;
+const MOST: f64 = 2e8;
 
 /// The drawing as PNG bytes with `scale` pixels per unit; a figure with a size in print has 600 to an inch instead.
 pub(crate) fn png(drawing: &Drawing, scale: f32) -> Result<Vec<u8>, ResultsError> {
     let Drawing { width, height, .. } = *drawing;
     let scale = match drawing.point {
-        Some(point) => (INCH / 72.0 * point) as f32,
+        Some(point) => {
+            let fits = (0.99 * MOST / (width * height)).sqrt();
+            (INCH / 72.0 * point).min(fits) as f32
+        }
         None => scale,
     };
     let pixels = width * height * f64::from(scale).powi(2);
-    if !(0.3..=32.0).contains(&scale) || pixels > 2e8 {
+    if !(0.3..=32.0).contains(&scale) || pixels > MOST {
         return Err(ResultsError::PngScale {
             width,
             height,
@@ -36,7 +40,10 @@ pub(crate) fn png(drawing: &Drawing, scale: f32) -> Result<Vec<u8>, ResultsError
     for mark in &drawing.ink {
         draw(mark, &mut image, Transform::from_scale(scale, scale));
     }
-    encode(&image, drawing.point.is_some())
+    let metre = drawing
+        .point
+        .map(|point| f64::from(scale) / point * 72.0 / 0.0254);
+    encode(&image, metre)
 }
 
 fn refused(reason: &impl ToString) -> ResultsError {
@@ -217,8 +224,8 @@ fn paint(colour: Colour, opacity: f64) -> Paint<'static> {
     paint
 }
 
-/// Three channels suffice on a white ground.
-fn encode(image: &Pixmap, printed: bool) -> Result<Vec<u8>, ResultsError> {
+/// Three channels suffice on a white ground; `metre` is the number of pixels of one in print.
+fn encode(image: &Pixmap, metre: Option<f64>) -> Result<Vec<u8>, ResultsError> {
     let rgb: Vec<u8> = image
         .data()
         .chunks_exact(4)
@@ -228,8 +235,8 @@ fn encode(image: &Pixmap, printed: bool) -> Result<Vec<u8>, ResultsError> {
     let mut encoder = png::Encoder::new(&mut bytes, image.width(), image.height());
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
-    if printed {
-        let metre = (INCH / 0.0254).round() as u32;
+    if let Some(metre) = metre {
+        let metre = metre.round() as u32;
         encoder.set_pixel_dims(Some(png::PixelDimensions {
             xppu: metre,
             yppu: metre,

@@ -31,7 +31,7 @@ pub(crate) const REFERENCE: (f64, Colour) = (1.2, Colour::DARK);
 /// Colour of the grid.
 pub(crate) const GRID: Colour = Colour(228, 228, 228);
 
-/// How figures are to look in print: their width, the size of their type, and whether titles stand in them.
+/// Look of figures in print: their width, the size of their type, and whether titles stand in them.
 ///
 /// ```
 /// use saltus_results::FigureStyle;

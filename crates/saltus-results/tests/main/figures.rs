@@ -663,6 +663,25 @@ fn a_figure_has_the_width_asked_for_in_every_format() {
 }
 
 #[test]
+fn a_poster_has_fewer_pixels_to_an_inch_and_no_figure_is_refused() {
+    let tall = || {
+        Figure::grid(
+            1,
+            (0..6).map(|_| Curves::new("", unit("x"), unit("y")).into()),
+        )
+    };
+    for (width, font) in [("1000mm", "4pt"), ("30mm", "36pt")] {
+        let style = FigureStyle::default().width(width).expect("a width");
+        let figure = tall().style(style.font_size(font).expect("a size"));
+        let png = figure
+            .png(2.0)
+            .unwrap_or_else(|error| panic!("{width}: {error}"));
+        assert!(png.len() > 1000, "{width}");
+        check_svg(&figure.svg());
+    }
+}
+
+#[test]
 fn panels_to_be_compared_share_their_scales() {
     let panel = |y: [f64; 2]| -> Panel {
         let axes = (Axis::new("x"), Axis::new("y"));
