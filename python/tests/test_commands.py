@@ -138,7 +138,7 @@ def test_a_folder_of_others_is_not_written_to(study: Study, tmp_path: Path) -> N
 
 
 def test_an_interrupted_map_goes_on_to_the_same_bits(study: Study, tmp_path: Path) -> None:
-    larger = study.set({"map.x.count": 24, "map.y.count": 16})
+    larger = study.set({"map.x.count": 24, "map.y.count": 16, "map.exponent": 0})
     pixels = 24 * 16
 
     def interrupt(what: str, done: int, total: int | None) -> None:

@@ -57,6 +57,7 @@ def study() -> Study:
             "plate.inertia": "condensed",
             "map.x.count": 32,
             "map.y.count": 24,
+            "map.exponent": 0,
             "basins.x.count": 8,
             "basins.y.count": 8,
             "sweep.direction": "restarts",

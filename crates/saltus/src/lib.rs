@@ -19,6 +19,10 @@
 //! # Ok::<(), saltus::study::StudyError>(())
 //! ```
 
+#[cfg(test)]
+#[path = "../tests/main/quadrature.rs"]
+mod quadrature;
+
 pub mod model;
 pub mod physics;
 pub mod study;

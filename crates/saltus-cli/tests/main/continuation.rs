@@ -355,7 +355,15 @@ fn the_summary_has_a_line_for_each_special_point() {
 fn curves_are_drawn_over_the_map_of_an_earlier_result() {
     let desk = Desk::new();
     let (paper, map, out) = (desk.paper(), desk.str("map"), desk.str("branches"));
-    let condensed = ["--quiet", "--set", "plate.inertia=condensed"];
+    let condensed = [
+        "--quiet",
+        "--set",
+        "plate.inertia=condensed",
+        "--set",
+        "continue.second.from=0.98",
+        "--set",
+        "continue.second.to=1.02",
+    ];
     saltus(&["map", &paper, "--out", &map])
         .args(condensed)
         .args(["--set", "map.x.count=5", "--set", "map.y.count=4"])

@@ -8,6 +8,7 @@ mod many_modes;
 mod motion;
 mod orbits;
 mod plate_validation;
+mod quadrature;
 mod rigid_base;
 mod rows;
 mod slow_manifold;

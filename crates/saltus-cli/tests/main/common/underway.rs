@@ -7,15 +7,17 @@ use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
-/// Few pixels, a few periods each.
+/// Few pixels, a few periods each; where pixels make many pieces, fewer periods and no exponents, which cost ten times
+/// the rest.
 pub(crate) fn small(command: &str, count: u32) -> Vec<String> {
+    let (transient, exponent) = if count < 10 { (40, 100) } else { (10, 0) };
     let sets = [
         "plate.inertia=condensed".to_owned(),
         format!("{command}.x.count={count}"),
         format!("{command}.y.count={count}"),
-        format!("{command}.transient=40"),
+        format!("{command}.transient={transient}"),
         format!("{command}.record=8"),
-        format!("{command}.exponent=100"),
+        format!("{command}.exponent={exponent}"),
     ];
     sets.into_iter()
         .flat_map(|set| ["--set".to_owned(), set])
