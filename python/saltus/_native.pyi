@@ -131,6 +131,7 @@ class Program:
         clock: int,
         units: Sequence[Sequence[Sequence[_Transition]]],
         scales: Sequence[int | None] = ...,
+        signs: Sequence[int] = ...,
     ) -> Program: ...
     @property
     def quantities(self) -> int: ...

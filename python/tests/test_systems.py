@@ -107,22 +107,9 @@ class TestFormulas:
         # strain, its square, its cube, and two sums
         assert system.program.quantities == 5
 
-    @pytest.mark.parametrize(
-        ("formula", "message"),
-        [
-            (lambda x: np.sin(x), r"sin of x: a system is made of"),
-            (lambda x: 1.0 / x, r"a division by x"),
-            (lambda x: x**0.5, r"x to the power 0\.5"),
-            (lambda x: x**-1, r"x to the power -1\.0"),
-            (lambda x: 2.0**x, r"2\.0 to the power x"),
-            (lambda x: np.nan * x, r"nan cannot stand in a formula"),
-        ],
-    )
-    def test_what_is_no_polynomial_is_refused_where_it_is_written(
-        self, formula: Any, message: str
-    ) -> None:
-        with pytest.raises(DefinitionError, match=message):
-            formula(states("x")[0])
+    def test_a_number_that_is_none_is_refused_where_it_is_written(self) -> None:
+        with pytest.raises(DefinitionError, match="nan cannot stand in a formula"):
+            np.nan * states("x")[0]
 
     def test_what_cannot_be_calculated_with_is_a_type_error(self) -> None:
         x: Any = states("x")[0]
@@ -580,7 +567,7 @@ class TestProgram:
             {"operations": [("state", [], 0.0), ("number", [], 1.0), ("add", [0, 2], 0.0)]},
             {"operations": [("state", [], 0.0), ("number", [], 1.0), ("choice", [1, 1], 0.0)]},
             {"operations": [("state", [], 0.0), ("number", [], 1.0), ("choice", [1], 1.0)]},
-            {"operations": [("state", [], 0.0), ("number", [], 1.0), ("tanh", [0], 0.0)]},
+            {"operations": [("state", [], 0.0), ("number", [], 1.0), ("erf", [0], 0.0)]},
             {"rates": []},
             {"rates": [3]},
             {"clock": 3},

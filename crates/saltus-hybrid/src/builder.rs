@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use crate::function::Function;
 use crate::program::{BuildError, Gate, Node, Operation, Program, Transition, Unit};
 use crate::structure::Structure;
 use crate::system::System;
@@ -218,6 +219,117 @@ impl SystemBuilder {
         self.push(Operation::Products(pairs.to_vec()))
     }
 
+    /// `dividend` over `divisor`: a trajectory ends where the divisor is zero. The work of one product.
+    pub fn quotient(&mut self, dividend: Node, divisor: Node) -> Node {
+        let active = self.program.push_coefficient(1.0);
+        self.one(Operation::Quotient {
+            dividend,
+            divisor,
+            active,
+        })
+    }
+
+    /// `base` to a power that is no whole number, such as 1/2 for the square root. A trajectory ends where the base is
+    /// negative by more than rounding (1e-9); at zero it goes on, in short steps. The work of one product and a half.
+    pub fn power(&mut self, base: Node, exponent: f64) -> Node {
+        let exponent = self.program.push_coefficient(exponent);
+        let active = self.program.push_coefficient(1.0);
+        self.one(Operation::Power {
+            base,
+            exponent,
+            active,
+        })
+    }
+
+    /// exp u. The work of one product and a value, as that of every function below but for quantities that it names.
+    pub fn exp(&mut self, u: Node) -> Node {
+        let own = self.ahead(0);
+        self.function(Function::Exp, u, own, false)
+    }
+
+    /// Natural logarithm of u; with 1/u. A trajectory ends where u is not positive.
+    pub fn log(&mut self, u: Node) -> Node {
+        let inverse = self.ahead(2);
+        let log = self.function(Function::Log, u, inverse, false);
+        let one = self.linear(1.0, &[]);
+        self.quotient(one, u);
+        log
+    }
+
+    /// (sin u, cos u).
+    pub fn sin_cos(&mut self, u: Node) -> (Node, Node) {
+        self.pair(Function::Sin, Function::Cos, true, u)
+    }
+
+    /// (sinh u, cosh u).
+    pub fn sinh_cosh(&mut self, u: Node) -> (Node, Node) {
+        self.pair(Function::Sinh, Function::Cosh, false, u)
+    }
+
+    /// tan u; with its square.
+    pub fn tan(&mut self, u: Node) -> Node {
+        self.with_square(Function::Tan, 1.0, u)
+    }
+
+    /// tanh u; with its square.
+    pub fn tanh(&mut self, u: Node) -> Node {
+        self.with_square(Function::Tanh, -1.0, u)
+    }
+
+    /// Inverse sine of u; with 1/sqrt(1 - u^2). A trajectory ends where u is beyond -1 or 1.
+    pub fn asin(&mut self, u: Node) -> Node {
+        let square = self.squares(&[u])[0];
+        let below = self.linear(1.0, &[(-1.0, square)]);
+        let slope = self.power(below, -0.5);
+        self.function(Function::Asin, u, slope, false)
+    }
+
+    /// Inverse tangent of u; with 1/(1 + u^2).
+    pub fn atan(&mut self, u: Node) -> Node {
+        let square = self.squares(&[u])[0];
+        let one = self.linear(1.0, &[]);
+        let above = self.linear(1.0, &[(1.0, square)]);
+        let slope = self.quotient(one, above);
+        self.function(Function::Atan, u, slope, false)
+    }
+
+    fn one(&mut self, op: Operation) -> Node {
+        Node::Op(self.program.push(op).start)
+    }
+
+    /// The node that is made after so many others.
+    fn ahead(&self, others: usize) -> Node {
+        Node::Op(self.program.nodes + others)
+    }
+
+    fn function(&mut self, function: Function, of: Node, slope: Node, minus: bool) -> Node {
+        let active = self.program.push_coefficient(1.0);
+        self.one(Operation::Function {
+            function,
+            of,
+            slope,
+            minus,
+            active,
+        })
+    }
+
+    /// Two functions, each the slope of the other; the second rises by minus the first if `minus`.
+    fn pair(&mut self, first: Function, second: Function, minus: bool, u: Node) -> (Node, Node) {
+        let [one, other] = [0, 1].map(|others| self.ahead(others));
+        self.function(first, u, other, false);
+        self.function(second, u, one, minus);
+        (one, other)
+    }
+
+    /// A function y whose slope is 1 + `sign` y^2.
+    fn with_square(&mut self, function: Function, sign: f64, u: Node) -> Node {
+        let slope = self.ahead(2);
+        let y = self.function(function, u, slope, false);
+        let square = self.squares(&[y])[0];
+        self.linear(1.0, &[(sign, square)]);
+        y
+    }
+
     /// `node` times a number that depends on the mode of `unit`, one for each mode.
     pub fn gate(&mut self, unit: Unit, by_mode: &[f64], node: Node) -> Node {
         self.gated_linear(unit, by_mode, &[(1.0, node)])
@@ -278,6 +390,14 @@ impl SystemBuilder {
         unit
     }
 
+    /// Gives a reserved unit two modes that follow the sign of a quantity: 0 while it is negative, 1 while it is
+    /// positive. Wherever a [`System::point`] is made they are those of the state there.
+    pub fn follow_sign(&mut self, unit: Unit, of: Node) {
+        let modes = [Transition::rising(of, 1), Transition::falling(of, 0)];
+        self.define_unit(unit, modes.map(|leave| vec![leave]).into());
+        self.program.signs.push(unit.0);
+    }
+
     /// The time integral of `integrand`, kept out of the error control: the rest of the state is
     /// the same to the bit with and without it. Call it after [`Self::drive`].
     pub fn quadrature(&mut self, integrand: Node) -> usize {
@@ -294,6 +414,7 @@ impl SystemBuilder {
         let mut program = self.program;
         let period = program.sampling_interval(period)?;
         program.check_numbers()?;
+        program.note_idle_modes();
         let mut structure = Structure::of(&program)?;
         let tables = structure.note_gates(&program)?;
         let scales = program.scales.iter().copied().chain([1.0; 2]);

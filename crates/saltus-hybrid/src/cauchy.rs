@@ -20,6 +20,12 @@ impl<'a, C> Orders<'a, C> {
             .first_chunk()
             .expect("slots of a block lie within an order")
     }
+
+    /// A slot at order `k`.
+    #[inline(always)]
+    pub(crate) fn load<A: Arith<Cell = C>>(&self, arith: A, k: usize, slot: usize) -> A::V {
+        arith.load(&self.cells[k * self.stride + slot])
+    }
 }
 
 /// Calls `$f::<A, W>` for the blocks of width W that make up `$count` neighbours; `$at` is where each

@@ -43,6 +43,8 @@ impl Structure {
         out.note_moves(&flat, &program.gates);
         let slots = Slots::new(&flat, &out.guards, &out.derivative);
         out.place_states(&slots);
+        let curved = out.guards.iter().filter(|&&guard| flat.is_curved(guard));
+        out.curved_guards = curved.map(|&guard| slots.first(guard)).collect();
         let needed = flat.needed_by(&out.guards);
         out.program = out.assemble(&flat, &slots, |_| true);
         out.guard_program = out.assemble(&flat, &slots, |op| needed[op]);
@@ -278,6 +280,42 @@ impl Assembly<'_> {
                 let slot = structure.note_followers(all, slots);
                 Op::Recall { out, slot, count }
             }
+            Kind::Quotient {
+                dividend,
+                divisor,
+                active,
+            } => Op::Quotient {
+                out,
+                own: slots.block(&[out as u16]),
+                dividend: *dividend as usize,
+                divisor: slots.block(&[*divisor]),
+                active: structure.stream(*active..active + 1),
+            },
+            Kind::Power {
+                base,
+                exponent,
+                active,
+            } => Op::Power {
+                out,
+                own: slots.block(&[out as u16]),
+                base: slots.block(&[*base]),
+                exponent: structure.stream(*exponent..exponent + 1),
+                active: structure.stream(*active..active + 1),
+            },
+            Kind::Function {
+                function,
+                minus,
+                of,
+                slope,
+                active,
+            } => Op::Function {
+                function: *function,
+                minus: *minus,
+                out,
+                of: slots.block(&[*of]),
+                slope: slots.block(&[*slope]),
+                active: structure.stream(*active..active + 1),
+            },
             Kind::Cubic(cubic) => Op::Cubic(structure.add_cubic(cubic, slots, out)),
         };
         self.program.push(Step { op, keeps });

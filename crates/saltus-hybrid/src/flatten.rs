@@ -1,5 +1,8 @@
 //! The operations of a program with flat indices, and the slots in which their results are kept.
 
+use std::slice;
+
+use crate::function::Function;
 use crate::program::{BuildError, Node, Operation};
 use crate::structure::Place;
 
@@ -42,6 +45,21 @@ impl Slots {
                 Kind::Adiabatic(all) => {
                     slots.add(&all.x);
                     slots.add(&all.sources);
+                }
+                Kind::Quotient {
+                    dividend, divisor, ..
+                } => {
+                    slots.is_read[*dividend as usize] = true;
+                    slots.add(&[*divisor]);
+                    slots.add(&[op.out as u16]);
+                }
+                Kind::Power { base, .. } => {
+                    slots.add(&[*base]);
+                    slots.add(&[op.out as u16]);
+                }
+                Kind::Function { of, slope, .. } => {
+                    slots.add(&[*of]);
+                    slots.add(&[*slope]);
                 }
             }
         }
@@ -119,6 +137,23 @@ pub(crate) enum Kind {
     Products(Vec<u16>, Vec<u16>),
     Adiabatic(Followers),
     Cubic(Gradient),
+    Quotient {
+        dividend: u16,
+        divisor: u16,
+        active: usize,
+    },
+    Power {
+        base: u16,
+        exponent: usize,
+        active: usize,
+    },
+    Function {
+        function: Function,
+        minus: bool,
+        of: u16,
+        slope: u16,
+        active: usize,
+    },
 }
 
 /// Nodes that follow others adiabatically.
@@ -179,6 +214,14 @@ impl Flattener {
             .ok_or_else(|| BuildError::Undefined(format!("{node:?}")))
     }
 
+    /// Flat index of a node that may come later.
+    fn ahead(&self, node: Node) -> u16 {
+        match node {
+            Node::State(i) => i as u16,
+            Node::Op(i) => (self.states + i) as u16,
+        }
+    }
+
     fn indices<'a>(
         &self,
         nodes: impl IntoIterator<Item = &'a Node>,
@@ -212,13 +255,7 @@ impl Flattener {
             } => Kind::Adiabatic(Followers {
                 x: (self.nodes..self.nodes + count).map(|i| i as u16).collect(),
                 // They come later in the program: their derivatives are those of the last round.
-                sources: sources
-                    .iter()
-                    .map(|&node| match node {
-                        Node::State(i) => i as u16,
-                        Node::Op(i) => (self.states + i) as u16,
-                    })
-                    .collect(),
+                sources: sources.iter().map(|&node| self.ahead(node)).collect(),
                 damping: *damping,
                 responses: responses.clone(),
             }),
@@ -239,6 +276,38 @@ impl Flattener {
                     extra: extra.clone(),
                 })
             }
+            Operation::Quotient {
+                dividend,
+                divisor,
+                active,
+            } => Kind::Quotient {
+                dividend: self.index(*dividend)? as u16,
+                divisor: self.index(*divisor)? as u16,
+                active: *active,
+            },
+            Operation::Power {
+                base,
+                exponent,
+                active,
+            } => Kind::Power {
+                base: self.index(*base)? as u16,
+                exponent: *exponent,
+                active: *active,
+            },
+            Operation::Function {
+                function,
+                of,
+                slope,
+                minus,
+                active,
+            } => Kind::Function {
+                function: *function,
+                minus: *minus,
+                of: self.index(*of)? as u16,
+                // Orders below that of the result are enough of it.
+                slope: self.ahead(*slope),
+                active: *active,
+            },
         };
         let (out, count) = (self.nodes, op.nodes());
         self.nodes += count;
@@ -251,6 +320,20 @@ impl Flattener {
     /// Whether these nodes depend on each operation.
     pub(crate) fn needed_by(&self, guards: &[usize]) -> Vec<bool> {
         self.cone(guards).0
+    }
+
+    /// Whether a node is no polynomial of the states.
+    pub(crate) fn is_curved(&self, node: usize) -> bool {
+        let (needed, _) = self.cone(&[node]);
+        let mut ops = needed.into_iter().zip(&self.ops);
+        ops.any(|(needed, op)| {
+            let kind = &op.kind;
+            let own = matches!(
+                kind,
+                Kind::Quotient { .. } | Kind::Power { .. } | Kind::Function { .. }
+            );
+            needed && own
+        })
     }
 
     /// States that a node depends on, and the ranges of coefficients of its sums; `None` if it depends on derivatives.
@@ -289,6 +372,11 @@ impl Flattener {
                     Kind::Products(first, second) => [first, second],
                     Kind::Cubic(cubic) => [&cubic.y, &cubic.added],
                     Kind::Adiabatic(_) => [&[], &[]],
+                    Kind::Quotient {
+                        dividend, divisor, ..
+                    } => [slice::from_ref(dividend), slice::from_ref(divisor)],
+                    Kind::Power { base, .. } => [slice::from_ref(base), &[]],
+                    Kind::Function { of, .. } => [slice::from_ref(of), &[]],
                 };
                 for &input in inputs.into_iter().flatten() {
                     nodes[input as usize] = true;

@@ -5,7 +5,7 @@
 //! same program with the absolute values of all its numbers bounds these terms, in every order
 //! (a running error analysis; Higham, Accuracy and Stability of Numerical Algorithms (2002), section 3.3).
 
-use crate::arith::Scalar;
+use crate::arith::{Bounded, Bounds};
 use crate::program::Mode;
 use crate::series::{Series, expand};
 use crate::system::System;
@@ -58,10 +58,8 @@ impl Side {
 pub(crate) struct Jets {
     system: System,
     modes: Option<Vec<Mode>>,
-    stream: Vec<f64>,
-    magnitudes: Vec<f64>,
-    values: Series<f64>,
-    bounds: Series<f64>,
+    stream: Vec<Bounded>,
+    series: Series<Bounded>,
 }
 
 impl Jets {
@@ -71,9 +69,7 @@ impl Jets {
             system: system.clone(),
             modes: None,
             stream: Vec::new(),
-            magnitudes: Vec::new(),
-            values: Series::new(&system.structure, ORDER),
-            bounds: Series::new(&system.structure, ORDER),
+            series: Series::new(&system.structure, ORDER),
         }
     }
 
@@ -90,18 +86,18 @@ impl Jets {
     ) -> Vec<Side> {
         if self.modes.as_deref() != Some(modes) {
             self.modes = Some(modes.to_vec());
-            self.stream = self.system.stream(modes);
-            self.magnitudes = self.stream.iter().map(|c| c.abs()).collect();
+            let stream = self.system.stream(modes);
+            self.stream = stream.into_iter().map(Bounded::new).collect();
         }
         let structure = &self.system.structure;
         for (i, &slot) in structure.state_slots.iter().enumerate() {
             let size = sizes.get(i).copied().unwrap_or(0.0);
-            *self.values.value(slot) = x[i];
-            *self.bounds.value(slot) = x[i].abs() + MEMORY * size;
+            *self.series.value(slot) = Bounded {
+                value: x[i],
+                bound: x[i].abs() + MEMORY * size,
+            };
         }
-        expand(Scalar, structure, None, &self.stream, &mut self.values);
-        let magnitudes = &self.magnitudes;
-        expand(Scalar, structure, None, magnitudes, &mut self.bounds);
+        expand(Bounds, structure, None, &self.stream, &mut self.series);
         let guards = structure.guard_slots.iter().zip(known);
         guards
             .map(|(&slot, &known)| self.side(slot, known.into(), close))
@@ -110,20 +106,25 @@ impl Jets {
 
     fn side(&self, slot: usize, known: usize, close: f64) -> Side {
         let mut signs = [0.0; ORDER + 1];
-        let terms = self.values.of(slot).zip(self.bounds.of(slot));
-        for (sign, (a, bound)) in signs.iter_mut().zip(terms).skip(known) {
+        for (sign, term) in signs.iter_mut().zip(self.series.of(slot)).skip(known) {
+            let Bounded { value, bound } = *term;
             // A bound beyond all numbers says nothing.
-            let zero = bound.is_finite() && a.abs() <= ZERO * bound;
-            *sign = if zero || *a == 0.0 { 0.0 } else { a.signum() };
+            let zero = bound.is_finite() && value.abs() <= ZERO * bound;
+            *sign = if zero || value == 0.0 {
+                0.0
+            } else {
+                value.signum()
+            };
         }
         let nonzero = |from: usize| (from..=ORDER).find(|&k| signs[k] != 0.0);
         let zeros = nonzero(0).unwrap_or(ORDER + 1);
         let next = nonzero(zeros + 1);
+        let now = self.series.at(slot, 0);
         Side {
             zeros: zeros as u8,
             sign: signs.get(zeros).copied().unwrap_or(0.0),
             trend: next.map_or(0.0, |k| signs[k]),
-            close: self.values.at(slot, 0).abs() <= close * self.bounds.at(slot, 0),
+            close: now.value.abs() <= close * now.bound,
         }
     }
 }

@@ -38,6 +38,10 @@ pub(crate) struct Kernel {
     /// largest tangent; NaN if any is not finite.
     tail: [Pack; 2],
     tangent_tail: Option<[Pack; 2]>,
+    /// Length that the series of each lane allowed in its last step; 0 at a start.
+    allowed: Pack,
+    /// Orders before the last two that [`Self::look_back`] looks at, and the size that their terms may have.
+    earlier: Vec<(usize, f64)>,
     /// NaN where the new state is not finite, else 0.
     pub(crate) overflow: Pack,
     /// States at the start of the step.
@@ -46,6 +50,9 @@ pub(crate) struct Kernel {
     /// Lanes that need a look at every step.
     wary: [bool; LANES],
 }
+
+/// Growth of a step beyond which its series is looked at again.
+const LONGER: f64 = 2.0;
 
 /// Range of a guard over the coming step, and the bounds beyond which a lane needs a look.
 #[derive(Clone, Copy)]
@@ -87,6 +94,10 @@ impl Kernel {
             sizes: Sizes::new(structure.controlled),
             tail: [Pack::default(); 2],
             tangent_tail: None,
+            allowed: Pack::default(),
+            earlier: (order.saturating_sub(5).max(order.div_ceil(2))..order - 1)
+                .map(|k| (k, tolerance.powf(k as f64 / order as f64)))
+                .collect(),
             overflow: Pack::default(),
             start: vec![Pack::default(); structure.states],
             guards: vec![guard; structure.guards.len()],
@@ -148,6 +159,7 @@ impl Kernel {
     /// Begins a segment at the state `x`: sizes of its states are not known yet.
     pub(crate) fn begin(&mut self, slot: usize, system: &System, x: &[f64]) {
         self.set_state(slot, x);
+        self.allowed.0[slot] = 0.0;
         self.sizes
             .begin(slot, &system.scales, system.program.together);
     }
@@ -313,13 +325,72 @@ impl Kernel {
     /// Length of each step: the last two terms of the series stay below the tolerance, in units of the size of each
     /// state and of the largest tangent, and it ends at the next sample at the latest. 0 if the series is not finite.
     #[inline(always)]
-    fn step_lengths(&self) -> Pack {
-        let mut lengths = self.left.0;
+    fn step_lengths(&mut self) -> Pack {
+        let mut lengths = [f64::INFINITY; LANES];
         self.shorten(&self.tail, |slot| self.sizes.largest(slot), &mut lengths);
         if let Some(tail) = &self.tangent_tail {
             self.shorten(tail, |_| 1.0, &mut lengths);
         }
+        let longer = lengths.iter().zip(&self.allowed.0);
+        if longer.fold(false, |any, (length, last)| any | (*length > LONGER * last)) {
+            self.look_back(&mut lengths);
+        }
+        if !self.structure.curved_guards.is_empty() {
+            self.shorten_by_guards(&mut lengths);
+        }
+        self.allowed = Pack(lengths);
+        for (length, left) in lengths.iter_mut().zip(self.left.0) {
+            *length = length.min(left);
+        }
         Pack(lengths)
+    }
+
+    /// Shortens steps that are much longer than the ones before where the last two terms of the series vanish by a
+    /// symmetry of the state, as those of x'' = -sin x do at pi/2 (every fourth term is there). Terms before them are
+    /// then as large as in a geometric series that ends at the tolerance, at the most.
+    #[cold]
+    fn look_back(&self, lengths: &mut [f64; LANES]) {
+        for (slot, length) in lengths.iter_mut().enumerate() {
+            if self.left.0[slot] == 0.0 || *length <= LONGER * self.allowed.0[slot] {
+                continue;
+            }
+            let largest = self.sizes.largest(slot);
+            let by = |&(k, part): &(usize, f64)| {
+                let row = self.series.row(k);
+                let states = self.sizes.inverse.iter().zip(&self.structure.state_slots);
+                let terms = states.map(|(unit, &at)| (row[at].0[slot] * unit.0[slot]).abs());
+                let term = terms.fold(f64::MIN_POSITIVE, f64::max);
+                root(part * largest / term, k as f64)
+            };
+            let allowed = self.earlier.iter().map(by).fold(f64::INFINITY, f64::min);
+            if LONGER * allowed < *length {
+                *length = allowed;
+            }
+        }
+    }
+
+    /// Steps over which the last two terms of guards that are no polynomials stay below the tolerance, relative to
+    /// their largest.
+    #[cold]
+    fn shorten_by_guards(&self, lengths: &mut [f64; LANES]) {
+        for &guard in &self.structure.curved_guards {
+            for (slot, length) in lengths.iter_mut().enumerate() {
+                let longest = length.min(self.left.0[slot]);
+                let mut scale = 1.0;
+                let mut terms = self.series.of(guard).map(|term| {
+                    let term = (term.0[slot] * scale).abs();
+                    scale *= longest;
+                    term
+                });
+                let size = terms.by_ref().take(self.order - 1).fold(0.0, f64::max);
+                for (term, k) in terms.zip(self.order - 1..) {
+                    if term > self.tolerance * size {
+                        let part = root(self.tolerance * size / term, k as f64);
+                        *length = length.min(longest * part);
+                    }
+                }
+            }
+        }
     }
 
     /// Steps no longer than these terms allow, in units of a size. Without branches, so that the lanes are computed side

@@ -9,6 +9,9 @@ use crate::task::{
     End, IntegrateError, Options, Sample, Segment, Status, Switch, SwitchKind, Task,
 };
 
+/// Part of a period within which a pole is the reason why a series is not finite, or its steps too short.
+pub(crate) const NEAR: f64 = 1e-9;
+
 /// A trajectory under way.
 pub(crate) struct Lane<T> {
     pub(crate) task: T,
@@ -133,13 +136,34 @@ impl<T: Task> Lane<T> {
         self.period >= self.periods
     }
 
-    /// The end of a lane whose step led to the state `x`, which is not finite.
-    pub(crate) fn not_finite(&self, x: impl IntoIterator<Item = f64>) -> Status {
-        let state = x.into_iter().position(|x| !x.is_finite()).unwrap_or(0);
-        Status::NotFinite {
+    /// The end of a lane whose step led from `before` to the state `x`, which is not finite. What a function asks of a
+    /// state within the time `reach` counts as its reason.
+    pub(crate) fn lost(
+        &mut self,
+        before: &[f64],
+        x: impl IntoIterator<Item = f64>,
+        reach: f64,
+    ) -> Status {
+        self.out_of_domain(before, reach).unwrap_or_else(|| {
+            let state = x.into_iter().position(|x| !x.is_finite()).unwrap_or(0);
+            Status::NotFinite {
+                time: self.total_time(),
+                state,
+            }
+        })
+    }
+
+    /// The end of a lane that leaves the domain of its functions within the time `reach` from the state `x`.
+    fn out_of_domain(&mut self, x: &[f64], reach: f64) -> Option<Status> {
+        let base = self.system.structure.base_states();
+        let evaluator = &mut self.judge.evaluator;
+        let modes = &self.guarded.modes;
+        let (operation, argument) = evaluator.out_of_domain(modes, &x[..base], reach)?;
+        Some(Status::OutOfDomain {
             time: self.total_time(),
-            state,
-        }
+            operation,
+            argument,
+        })
     }
 
     /// Switches so far.
@@ -212,7 +236,7 @@ impl<T: Task> Lane<T> {
             return Next::Over(self.chattering());
         }
         if !few_steps {
-            return Next::Over(self.too_many_steps());
+            return Next::Over(self.too_many_steps(x));
         }
         if arrives { self.sample(x) } else { Next::Go }
     }
@@ -233,11 +257,14 @@ impl<T: Task> Lane<T> {
         }
     }
 
-    pub(crate) fn too_many_steps(&self) -> Status {
-        Status::TooManySteps {
-            time: self.total_time(),
-            count: self.recent_steps,
-        }
+    /// The end of a lane whose steps are too many, which are at the state `x`.
+    pub(crate) fn too_many_steps(&mut self, x: &[f64]) -> Status {
+        let reach = NEAR * self.system.period;
+        self.out_of_domain(x, reach)
+            .unwrap_or(Status::TooManySteps {
+                time: self.total_time(),
+                count: self.recent_steps,
+            })
     }
 
     /// Counts the time that a unit spent in its mode.

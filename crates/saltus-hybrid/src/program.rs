@@ -1,10 +1,12 @@
 //! The words that a system is written in, and the program they make: plain data.
 //!
-//! A state x obeys x' = f(x, cos(Omega t), sin(Omega t)), f being built from sums and products, so
-//! that it is polynomial. A part that can switch is a [`Unit`]: a small automaton whose mode selects
+//! A state x obeys x' = f(x, cos(Omega t), sin(Omega t)), f being built from sums, products, quotients, powers and
+//! elementary functions. A part that can switch is a [`Unit`]: a small automaton whose mode selects
 //! some of the coefficients. A mode lasts while each of its guards is positive.
 
 use std::ops::Range;
+
+use crate::function::Function;
 
 /// A quantity of the program: a state or the result of an operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -100,13 +102,36 @@ pub(crate) enum Operation {
         weights: usize,
         extra: Vec<(usize, usize, usize)>,
     },
+    /// Where the coefficient `active` is 0, in modes in which nothing needs the result, this and the next two operate
+    /// on numbers that do no harm.
+    Quotient {
+        dividend: Node,
+        divisor: Node,
+        active: usize,
+    },
+    Power {
+        base: Node,
+        exponent: usize,
+        active: usize,
+    },
+    /// y = F(of), whose rate is the slope times that of its argument, or minus that. The slope may come later.
+    Function {
+        function: Function,
+        of: Node,
+        slope: Node,
+        minus: bool,
+        active: usize,
+    },
 }
 
 impl Operation {
     /// Number of nodes that it makes.
     pub(crate) fn nodes(&self) -> usize {
         match self {
-            Self::Linear { .. } => 1,
+            Self::Linear { .. }
+            | Self::Quotient { .. }
+            | Self::Power { .. }
+            | Self::Function { .. } => 1,
             Self::Squares(list) => list.len(),
             Self::Products(list) => list.len(),
             Self::Cubic { y, .. } => 3 * y.len(),
@@ -147,6 +172,8 @@ pub(crate) struct Program {
     pub(crate) gates: Vec<Gate>,
     /// Transitions of each mode of each unit.
     pub(crate) units: Vec<Vec<Vec<Transition>>>,
+    /// Units that follow the sign of a quantity.
+    pub(crate) signs: Vec<usize>,
 }
 
 impl Program {
@@ -164,6 +191,7 @@ impl Program {
             coefficients: Vec::new(),
             gates: Vec::new(),
             units: Vec::new(),
+            signs: Vec::new(),
         }
     }
 

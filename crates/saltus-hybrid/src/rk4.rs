@@ -90,9 +90,9 @@ impl<T: Task> Run<'_, T> {
         sized.for_each(|(size, x)| *size = size.max(x.abs()));
         let (part, firing) = self.advance(h);
         if self.x.iter().any(|x| !x.is_finite()) {
-            let status = self.lane.not_finite(self.x.iter().copied());
-            self.x = self.stepper.opened(&self.structure);
-            return Some(status);
+            let before = self.stepper.opened(&self.structure);
+            let states = std::mem::replace(&mut self.x, before);
+            return Some(self.lane.lost(&self.x, states, h));
         }
         let length = if part < 1.0 { part * h } else { h };
         if length > 0.0 {

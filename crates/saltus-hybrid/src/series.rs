@@ -5,6 +5,7 @@
 
 use crate::arith::{Arith, Scalar};
 use crate::cauchy::{Orders, products, squares, squares_and_products};
+use crate::recurrence;
 use crate::rows::block_rows;
 use crate::special::Shape;
 use crate::structure::{Adiabatic, Cubic, Group, MAX_NODES, Op, Place, Step, Structure};
@@ -260,6 +261,52 @@ fn run<A: Arith, const M: usize>(
             Op::Recall { out, slot, count } => {
                 let from = k * stride + slot;
                 now[*out..out + count].copy_from_slice(&series.kept[from..from + count]);
+            }
+            Op::Quotient {
+                out,
+                own,
+                dividend,
+                divisor,
+                active,
+            } => {
+                let orders = Orders {
+                    cells: &series.kept,
+                    stride,
+                };
+                let (active, dividend) = (&stream[*active], &now[*dividend % M]);
+                let places = [*divisor, *own];
+                now[*out % M] = recurrence::quotient(arith, orders, active, dividend, places, k);
+            }
+            Op::Power {
+                out,
+                own,
+                base,
+                exponent,
+                active,
+            } => {
+                let orders = Orders {
+                    cells: &series.kept,
+                    stride,
+                };
+                let (active, exponent) = (&stream[*active], &stream[*exponent]);
+                let places = [*base, *own];
+                now[*out % M] = recurrence::power(arith, orders, active, exponent, places, k);
+            }
+            Op::Function {
+                function,
+                minus,
+                out,
+                of,
+                slope,
+                active,
+            } => {
+                let orders = Orders {
+                    cells: &series.kept,
+                    stride,
+                };
+                let places = [*of, *slope];
+                let (active, which) = (&stream[*active], (*function, *minus));
+                now[*out % M] = recurrence::function(arith, orders, active, which, places, k);
             }
             Op::Cubic(index) => {
                 let cubic = &structure.cubics[*index];

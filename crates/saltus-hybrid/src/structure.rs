@@ -6,6 +6,8 @@
 
 use std::sync::Arc;
 
+use crate::function::Function;
+
 /// Nodes that an index can name.
 pub(crate) const MAX_NODES: usize = 1 << 16;
 
@@ -48,6 +50,8 @@ pub(crate) struct Structure {
     pub(crate) guards: Vec<usize>,
     /// Their slots.
     pub(crate) guard_slots: Vec<usize>,
+    /// Slots of those that are no polynomials of the states: their series say how far they go.
+    pub(crate) curved_guards: Vec<usize>,
     /// Transitions of each mode of each unit.
     pub(crate) units: Vec<Vec<Vec<Watch>>>,
     /// (place in the stream, unit, offset of its table in `System::tables`).
@@ -111,6 +115,32 @@ pub(crate) enum Op {
         out: usize,
         slot: usize,
         count: usize,
+    },
+    /// A node over a slot; the result has a slot, `own`. `active` is a place in the stream: see
+    /// [`Operation`](crate::program::Operation).
+    Quotient {
+        out: usize,
+        own: usize,
+        dividend: usize,
+        divisor: usize,
+        active: usize,
+    },
+    /// A slot to a power, a place in the stream.
+    Power {
+        out: usize,
+        own: usize,
+        base: usize,
+        exponent: usize,
+        active: usize,
+    },
+    /// A function of a slot, whose slope is in another.
+    Function {
+        function: Function,
+        minus: bool,
+        out: usize,
+        of: usize,
+        slope: usize,
+        active: usize,
     },
     /// Squares q of neighbours y, t = A q + added, and products y t: see `Structure::cubics`.
     Cubic(usize),

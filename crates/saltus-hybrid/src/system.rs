@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::evaluator::Evaluator;
 use crate::program::{Mode, Node, Program};
 use crate::special::{self, Shape};
 use crate::structure::Structure;
@@ -66,9 +67,36 @@ impl System {
         if let Some((cos, sin)) = self.structure.drive {
             (state[cos], state[sin]) = (1.0, 0.0);
         }
-        Point {
+        let mut point = Point {
             modes: modes.to_vec(),
             x: state,
+        };
+        if !self.program.signs.is_empty() {
+            self.set_signs(&mut point);
+        }
+        point
+    }
+
+    /// Gives the units that follow a sign the mode that their quantity has at a point, or just after it where that is
+    /// zero. A quantity may depend on units before it.
+    fn set_signs(&self, point: &mut Point) {
+        let base = self.base();
+        let mut evaluator = Evaluator::new(&base);
+        let x = &point.x[..base.structure.states.min(point.x.len())];
+        for &unit in &self.program.signs {
+            let Some(watch) = base.structure.units[unit].iter().flatten().next() else {
+                continue;
+            };
+            let guard = base.structure.guards[watch.guard];
+            let nodes = evaluator.nodes(&point.modes, x);
+            let value = nodes[guard];
+            let rates = base.structure.derivative.iter();
+            let flow: Vec<f64> = rates.map(|&rate| nodes[rate]).collect();
+            let sign = match value {
+                0.0 => evaluator.along(&flow)[guard],
+                value => value,
+            };
+            point.modes[unit] = usize::from(sign > 0.0);
         }
     }
 

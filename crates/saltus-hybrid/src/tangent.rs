@@ -138,6 +138,19 @@ impl<'a> Slopes<'a> {
                     halves(self.products(&both))
                 }
                 Operation::Cubic { y, added, .. } => self.cubic(op, y, added),
+                Operation::Quotient {
+                    dividend, divisor, ..
+                } => {
+                    vec![self.quotient(*dividend, *divisor)]
+                }
+                Operation::Power { base, exponent, .. } => vec![self.power(*base, *exponent)],
+                Operation::Function {
+                    of, slope, minus, ..
+                } => {
+                    let sign = if *minus { -1.0 } else { 1.0 };
+                    let along = self.of(*of);
+                    vec![self.times_node(*slope, along, sign)]
+                }
                 Operation::Adiabatic { count, .. } => {
                     reserved = Some((op, self.b.program.operations.len()));
                     let nodes = self.b.append_adiabatic(*count);
@@ -204,6 +217,38 @@ impl<'a> Slopes<'a> {
             .map(product)
             .map(|term| term.into_iter().collect())
             .collect()
+    }
+
+    /// Node times slope times a number.
+    fn times_node(&mut self, node: Node, slope: Slope, by: f64) -> Slope {
+        let product = self.products(&[(node, slope)]).remove(0);
+        product
+            .into_iter()
+            .map(|(c, node)| (by * c, node))
+            .collect()
+    }
+
+    /// q = a/b: dq = (da - q db)/b.
+    fn quotient(&mut self, a: Node, b: Node) -> Slope {
+        let q = Node::Op(self.ops.len());
+        let mut slope = self.of(a);
+        let db = self.of(b);
+        slope.extend(self.times_node(q, db, -1.0));
+        match self.one(&slope) {
+            Some((c, node)) => vec![(c, self.b.quotient(node, b))],
+            None => Slope::new(),
+        }
+    }
+
+    /// p = u^a: dp = a u^(a - 1) du.
+    fn power(&mut self, base: Node, exponent: usize) -> Slope {
+        let along = self.of(base);
+        if along.is_empty() {
+            return along;
+        }
+        let exponent = self.b.program.coefficients[exponent];
+        let slope = self.b.power(base, exponent - 1.0);
+        self.times_node(slope, along, exponent)
     }
 
     fn squares(&mut self, y: &[Node], slopes: &[Slope]) -> Vec<Slope> {

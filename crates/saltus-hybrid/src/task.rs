@@ -261,6 +261,16 @@ pub enum Status {
         /// First state that is not finite.
         state: usize,
     },
+    /// A quotient, root, power or function is asked for where it is not defined, or too near to that for a series.
+    #[error("{operation} {argument:e} at t = {time}: the motion leaves the domain of the system")]
+    OutOfDomain {
+        /// Time of the last good state.
+        time: f64,
+        /// The operation, such as "the logarithm of".
+        operation: &'static str,
+        /// The number that it was to be of.
+        argument: f64,
+    },
     /// More steps in one period than allowed: it might never end.
     #[error(
         "{count} steps within one period by t = {time}: loosen the tolerance or look for a singularity"
@@ -292,6 +302,7 @@ impl Status {
             Self::Completed => "completed",
             Self::Chattering { .. } => "chattering",
             Self::NotFinite { .. } => "not-finite",
+            Self::OutOfDomain { .. } => "out-of-domain",
             Self::TooManySteps { .. } => "too-many-steps",
         }
     }

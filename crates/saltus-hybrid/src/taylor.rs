@@ -11,7 +11,7 @@ use std::sync::atomic::AtomicBool;
 use crate::arith::LANES;
 use crate::event::Firing;
 use crate::kernel::Kernel;
-use crate::lane::{Arrival, Lane, Next};
+use crate::lane::{Arrival, Lane, NEAR, Next};
 use crate::task::{IntegrateError, Options, Segment, Status, Step, Task, check_stop};
 
 /// Runs all tasks.
@@ -213,22 +213,22 @@ impl<T: Task> Ensemble<T> {
         let plan = self.plans[slot];
         let kernel = &mut self.kernel;
         if plan.failed || !kernel.has_finite_state(slot) {
-            let status = if plan.failed {
+            let mut states = vec![0.0; self.x.len()];
+            if plan.failed {
                 // The state may be finite while its series is not.
                 let slots = &kernel.structure.state_slots;
                 let finite = |state: usize| kernel.power(slot, slots[state]).all(f64::is_finite);
-                let states = (0..self.x.len()).map(|i| if finite(i) { 0.0 } else { f64::NAN });
-                lane.not_finite(states)
+                let lost = (0..states.len()).filter(|&state| !finite(state));
+                lost.for_each(|state| states[state] = f64::NAN);
             } else {
-                kernel.state(slot, &mut self.x);
-                lane.not_finite(self.x.iter().copied())
-            };
+                kernel.state(slot, &mut states);
+            }
             kernel.state_before(slot, &mut self.x);
-            return Some(status);
+            return Some(lane.lost(&self.x, states, NEAR * lane.system.period));
         }
         kernel.state(slot, &mut self.x);
         if !eventful {
-            return Some(lane.too_many_steps());
+            return Some(lane.too_many_steps(&self.x));
         }
         let length = kernel.lengths.0[slot];
         let arrival = if length < kernel.left.0[slot] {

@@ -14,7 +14,10 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-__all__ = ["Entrywise", "ExpressionArray", "array_of"]
+__all__ = ["OURS", "Entrywise", "ExpressionArray", "array_of"]
+
+#: NumPy's functions that are not asked of each entry, by name: they make switches.
+OURS: dict[str, Callable[..., Any]] = {}
 
 
 class Entrywise:
@@ -24,11 +27,17 @@ class Entrywise:
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **named: Any) -> Any:
         """Go on with each entry."""
-        return _entrywise(getattr(ufunc, method), ufunc.__name__, inputs, named)
+        name = ufunc.__name__
+        if name in OURS and method == "__call__" and not named:
+            return OURS[name](*inputs)
+        return _entrywise(getattr(ufunc, method), name, inputs, named)
 
     def __array_function__(self, function: Any, types: Any, inputs: Any, named: Any) -> Any:
         """Go on with each entry."""
-        return _entrywise(function, function.__name__, inputs, named)
+        name = function.__name__
+        return (
+            OURS[name](*inputs, **named) if name in OURS else _entrywise(function, name, inputs, named)
+        )
 
 
 class ExpressionArray(Entrywise, np.ndarray):

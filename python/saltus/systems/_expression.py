@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from saltus._errors import DefinitionError, FormulaError
-from saltus.systems._entrywise import Entrywise, array_of
+from saltus.systems._entrywise import OURS, Entrywise, array_of
 from saltus.systems._refusals import no_formula, refuse_others, refusing
 
 if TYPE_CHECKING:
@@ -27,23 +27,26 @@ __all__ = [
     "states",
 ]
 
-#: Largest power of a state: no model has larger ones.
-MAX_POWER = 64
 #: Depth to which a formula is printed.
 _SHOWN = 6
 
 
 @refuse_others
 class Expression(Entrywise):
-    """A formula: sums, products and whole powers of states, with numbers and parameters.
+    """A formula of states, parameters and the forcing.
 
-    Made by `states`, `parameters` and `Forcing`, and by calculating with them; arrays of
-    expressions are NumPy arrays of objects, so that ``K @ x`` and `numpy.einsum` work. Formulas of
-    parameters alone may hold any power and quotient, and `numpy.sqrt`, `numpy.exp`, `numpy.log`,
-    `numpy.sin`, `numpy.cos`, `numpy.tan`, `numpy.arctan` and `abs`.
+    Made by `states`, `parameters` and `Forcing`, and by calculating with them: sums, products,
+    quotients, powers, and NumPy's `sqrt`, `exp`, `log`, `sin`, `cos`, `tan`, `sinh`, `cosh`, `tanh`,
+    `arcsin`, `arccos`, `arctan` and `hypot`. What depends on a sign switches where the sign changes,
+    exactly: `abs`, `numpy.sign`, `numpy.maximum`, `numpy.minimum`, `numpy.clip`, `numpy.heaviside`
+    and ``numpy.where(x > 0.0, this, that)``, with conditions joined by ``&``, ``|`` and ``~``. Arrays
+    of expressions are NumPy arrays of objects, so that ``K @ x`` and `numpy.einsum` work.
 
-    Expressions are compared with each other by identity, and have no value, so no truth value either.
-    Any other operation raises a `saltus.FormulaError` that says what to write instead.
+    A trajectory ends where a formula is not defined: a division by 0, the logarithm of a negative
+    number; its status is "out-of-domain" then. A formula of one mode of a unit is not asked in others.
+
+    Expressions are equal to themselves alone, and have no value, so no truth value either. Any other
+    operation raises a `saltus.FormulaError` that says what to write instead.
 
     Examples
     --------
@@ -52,7 +55,7 @@ class Expression(Entrywise):
     ((-x) - (0.1 * (v ** 3.0)))
     """
 
-    __slots__ = ("changes", "of", "operation", "tag")
+    __slots__ = ("changes", "of", "operation", "sides", "tag")
 
     def __init__(
         self, operation: str, of: tuple[Expression, ...] = (), tag: Any = None, *, changes: bool
@@ -63,6 +66,8 @@ class Expression(Entrywise):
         self.tag = tag
         #: Whether it changes with time.
         self.changes = changes
+        #: The unit that follows its sign, once there is one.
+        self.sides: Any = None
 
     def __add__(self, other: ExpressionLike) -> Expression:
         """Sum."""
@@ -89,15 +94,15 @@ class Expression(Entrywise):
         return _binary("multiply", other, self)  # type: ignore[no-any-return]
 
     def __truediv__(self, other: ExpressionLike) -> Expression:
-        """Quotient; the divisor must not change with time."""
+        """Quotient; a trajectory ends where the divisor is 0."""
         return _binary("divide", self, other)  # type: ignore[no-any-return]
 
     def __rtruediv__(self, other: ExpressionLike) -> Expression:
-        """Quotient; the divisor must not change with time."""
+        """Quotient; a trajectory ends where the divisor is 0."""
         return _binary("divide", other, self)  # type: ignore[no-any-return]
 
     def __pow__(self, other: ExpressionLike) -> Expression:
-        """Power; of an expression that changes with time, a whole one from 0 to 64."""
+        """Power; of a positive base, unless the exponent is a whole number up to 64."""
         return _binary("power", self, other)  # type: ignore[no-any-return]
 
     def __rpow__(self, other: ExpressionLike) -> Expression:
@@ -113,46 +118,92 @@ class Expression(Entrywise):
         return self
 
     def __abs__(self) -> Expression:
-        """Absolute value of a formula that does not change with time."""
-        return self._function("absolute")
+        """Absolute value: of what changes with time, it switches at 0."""
+        return OURS["absolute"](self)  # type: ignore[no-any-return]
 
-    # numpy.sqrt(p) and its sisters call these.
+    def __gt__(self, other: ExpressionLike) -> Any:
+        """Condition that it is above the other, for `numpy.where`."""
+        return OURS["greater"](self, other)
+
+    def __ge__(self, other: ExpressionLike) -> Any:
+        """Condition that it is not below the other, for `numpy.where`."""
+        return OURS["greater_equal"](self, other)
+
+    def __lt__(self, other: ExpressionLike) -> Any:
+        """Condition that it is below the other, for `numpy.where`."""
+        return OURS["less"](self, other)
+
+    def __le__(self, other: ExpressionLike) -> Any:
+        """Condition that it is not above the other, for `numpy.where`."""
+        return OURS["less_equal"](self, other)
+
+    # numpy.sqrt and its sisters call these for each entry of an array.
     def sqrt(self) -> Expression:
-        """Square root of a formula that does not change with time."""
+        """Square root."""
         return self._function("sqrt")
 
     def exp(self) -> Expression:
-        """Exponential of a formula that does not change with time."""
+        """Exponential."""
         return self._function("exp")
 
     def log(self) -> Expression:
-        """Natural logarithm of a formula that does not change with time."""
+        """Natural logarithm."""
         return self._function("log")
 
     def sin(self) -> Expression:
-        """Sine of a formula that does not change with time."""
+        """Sine."""
         return self._function("sin")
 
     def cos(self) -> Expression:
-        """Cosine of a formula that does not change with time."""
+        """Cosine."""
         return self._function("cos")
 
     def tan(self) -> Expression:
-        """Tangent of a formula that does not change with time."""
+        """Tangent."""
         return self._function("tan")
 
+    def sinh(self) -> Expression:
+        """Hyperbolic sine."""
+        return self._function("sinh")
+
+    def cosh(self) -> Expression:
+        """Hyperbolic cosine."""
+        return self._function("cosh")
+
+    def tanh(self) -> Expression:
+        """Hyperbolic tangent."""
+        return self._function("tanh")
+
+    def arcsin(self) -> Expression:
+        """Inverse sine."""
+        return self._function("arcsin")
+
+    def arccos(self) -> Expression:
+        """Inverse cosine."""
+        return 0.5 * math.pi - self._function("arcsin")
+
     def arctan(self) -> Expression:
-        """Inverse tangent of a formula that does not change with time."""
+        """Inverse tangent."""
         return self._function("arctan")
+
+    def hypot(self, other: ExpressionLike) -> Expression:
+        """Hypotenuse of two legs."""
+        return (self * self + other * other).sqrt()
+
+    def square(self) -> Expression:
+        """Square."""
+        return self * self
+
+    def reciprocal(self) -> Expression:
+        """One over it."""
+        return 1.0 / self
 
     def conjugate(self) -> Expression:
         """Return the same: formulas are real."""
         return self
 
     def _function(self, name: str) -> Expression:
-        if self.changes:
-            raise no_formula(name, [self])
-        return Expression(name, (self,), changes=False)
+        return Expression(name, (self,), changes=self.changes)
 
     def __eq__(self, other: object) -> bool:
         """Whether it is the other expression; FormulaError for a number."""
@@ -347,17 +398,10 @@ def _binary(operation: str, first: ExpressionLike, second: ExpressionLike) -> An
             # Arrays go on with each of their entries; everything else is a TypeError.
             return NotImplemented
     a, b = expression(first), expression(second)
-    changes = a.changes or b.changes
-    if operation == "divide" and b.changes:
-        raise no_formula(operation, [a, b])
-    if operation == "power" and changes and not _is_power(b):
-        raise no_formula(operation, [a, b])
-    return Expression(operation, (a, b), changes=changes)
-
-
-def _is_power(exponent: Expression) -> bool:
-    number = exponent.tag if exponent.operation == "number" else -1.0
-    return bool(float(number).is_integer() and 0 <= number <= MAX_POWER)
+    if operation == "power" and b.changes:
+        # a^b with a moving exponent
+        return (b * a.log()).exp()
+    return Expression(operation, (a, b), changes=a.changes or b.changes)
 
 
 _SIGNS = {"add": "+", "subtract": "-", "multiply": "*", "divide": "/", "power": "**"}

@@ -197,7 +197,7 @@ class Trajectories:
     steps : ndarray of int, shape (...)
         Steps taken.
     status : ndarray of str, shape (...)
-        "completed", "chattering", "not-finite" or "too-many-steps".
+        "completed", "chattering", "not-finite", "out-of-domain" or "too-many-steps".
     reason : ndarray of str, shape (...)
         The same as a sentence, with the time.
     switches : Switches
@@ -320,7 +320,8 @@ def integrate(
         against each other.
     modes : array_like of int, shape (..., units), optional
         The mode of each unit at the start, as a place in the list of its modes; by default the
-        first. A guard that is already beyond zero fires at once, unless it is coming back.
+        first. A unit that follows a sign, such as that of `abs`, has the mode of that sign. A guard
+        that is already beyond zero fires at once, unless it is coming back.
     transient : int, optional
         Periods to run before any are kept.
     samples_per_period : int, optional

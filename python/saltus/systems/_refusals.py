@@ -13,55 +13,36 @@ if TYPE_CHECKING:
 
 __all__ = ["is_refused", "no_formula", "refuse_others", "refusing"]
 
-#: Functions that formulas of parameters may hold.
-_KNOWN = "sqrt, exp, log, sin, cos, tan, arctan and abs"
-
-_TWO = "let two further states s and c stand for {} and {}, with the rates c * u' and {}s * u'"
-_ONE = "let a further state y stand for it, with the rate {} * u'"
-_ROOT = "let two further states stand for it, r = {} with the rate {} * u', and y with the rate {} * u'"
-
-#: States to take instead of a function of a state u: their rates are formulas; u' is the rate of u.
-_STATES = {
-    "exp": _ONE.format("y"),
-    "expm1": _ONE.format("(1 + y)"),
-    "log": _ROOT.format("1/u", "-r**2", "r"),
-    "sqrt": _ROOT.format("1/sqrt(u)", "-0.5 * r**3", "0.5 * r"),
-    "sin": _TWO.format("sin(u)", "cos(u)", "-"),
-    "cos": _TWO.format("sin(u)", "cos(u)", "-"),
-    "sinh": _TWO.format("cosh(u)", "sinh(u)", ""),
-    "cosh": _TWO.format("cosh(u)", "sinh(u)", ""),
-    "tan": _ONE.format("(1 + y**2)"),
-    "tanh": _ONE.format("(1 - y**2)"),
-    "arctan": _ROOT.format("1/(1 + u**2)", "-2 * u * r**2", "r"),
-    "reciprocal": _ONE.format("-y**2"),
-}
-_STATES["divide"] = "let a further state y stand for one over it, with the rate -y**2 * u'"
-_STATES["power"] = (
-    "whole powers from 0 to 64 are possible; for others let a further state stand, such as y = 1/u "
-    "with the rate -y**2 * u'"
+#: Functions that formulas may hold.
+_KNOWN = (
+    "sqrt, exp, log, sin, cos, tan, sinh, cosh, tanh, arcsin, arccos, arctan, hypot, abs, sign, "
+    "maximum, minimum, clip, heaviside and where"
 )
-_START = "; u' is the rate of u = {}, and what resets u resets them too"
+
+#: Functions whose inverse or composition is known, and what to write.
+_INSTEAD = {
+    "arcsinh": "log(u + sqrt(u**2 + 1))",
+    "arccosh": "log(u + sqrt(u**2 - 1))",
+    "arctanh": "0.5 * log((1 + u)/(1 - u))",
+    "arctan2": "2 * arctan(y/(sqrt(x**2 + y**2) + x))",
+    "cbrt": "sign(u) * abs(u)**(1/3)",
+    "deg2rad": "u * pi/180",
+    "exp2": "exp(u * log(2))",
+    "expm1": "exp(u) - 1",
+    "log10": "log(u)/log(10)",
+    "log1p": "log(1 + u)",
+    "log2": "log(u)/log(2)",
+    "rad2deg": "u * 180/pi",
+    "sinc": "sin(pi * u)/(pi * u)",
+}
 
 #: Operations and functions that ask for the sign of something.
 _SWITCHING = {
-    "absolute",
-    "clip",
     "copysign",
     "equal",
-    "fabs",
-    "fmax",
-    "fmin",
-    "greater",
-    "greater_equal",
-    "heaviside",
     "interp",
-    "less",
-    "less_equal",
-    "maximum",
-    "minimum",
     "not_equal",
     "piecewise",
-    "sign",
     "signbit",
 }
 #: Operations that ask how often something fits.
@@ -81,9 +62,8 @@ _ROUNDING = {
 }
 
 _UNIT = (
-    "what depends on a sign switches: with side = Unit('below', 'above') write side.choose(below=..., "
-    "above=...), and let side.transition('below', 'above', rising=u) and side.transition('above', "
-    "'below', falling=u) switch it where the difference u of the two is 0"
+    "what depends on a sign switches: write numpy.where(u > 0.0, this, that), or sign, abs, maximum or "
+    "minimum; with jumps of states, or modes that outlast their guards, a Unit with transitions"
 )
 _RESET = (
     "what begins anew is reset: unit.transition('on', 'on', rising=u - 1.0, reset={u: u - 1.0}) of "
@@ -124,11 +104,7 @@ _OPERATORS = {
 _ALONE = {
     "ceil": "ceil",
     "floor": "floor",
-    "ge": "greater_equal",
-    "gt": "greater",
     "invert": "invert",
-    "le": "less_equal",
-    "lt": "less",
     "round": "round",
     "trunc": "trunc",
 }
@@ -175,8 +151,7 @@ def _valueless(written: str) -> Callable[..., Any]:
             f"{written.format(*map(repr, of))}: {of[0]!r} is a formula, which has no value before the "
             "system runs. Python's own float(), int(), bool(), if, and, or, max() and min() and the "
             "functions of math take numbers alone, and so do arrays of numbers (one of formulas has "
-            f"dtype=object); of parameters NumPy's {_KNOWN} may be taken; what switches is a Unit with "
-            "guards"
+            f"dtype=object); NumPy's {_KNOWN} may be taken"
         )
 
     return refuse
@@ -192,20 +167,18 @@ def no_formula(name: str, of: Sequence[Any]) -> FormulaError:
     what = _call(name, of)
     if not _changes(of):
         return FormulaError(
-            f"{what}: formulas of parameters hold sums, products, powers and quotients, {_KNOWN}; "
-            "compute other values beforehand, and give them as parameters of their own"
+            f"{what}: formulas hold sums, products, powers, quotients, {_KNOWN}; "
+            "compute other values of parameters beforehand, and give them as parameters of their own"
         )
     if name in _SWITCHING:
         instead = _UNIT
     elif name in _ROUNDING:
         instead = _RESET
-    elif name in _STATES:
-        instead = _STATES[name] + _START.format(_shown(of[-1] if name == "divide" else of[0]))
+    elif name in _INSTEAD:
+        instead = f"write {_INSTEAD[name]}"
     else:
         instead = "a further state whose rate is known can stand for another function"
-    return FormulaError(
-        f"{what}: a system is made of sums, products and whole powers of its states; {instead}"
-    )
+    return FormulaError(f"{what}: formulas hold sums, products, powers, quotients, {_KNOWN}; {instead}")
 
 
 def _changes(of: Any) -> bool:

@@ -11,6 +11,7 @@ import numpy as np
 
 from saltus import _native
 from saltus._errors import DefinitionError
+from saltus.systems._conditions import Sides
 from saltus.systems._expression import Expression, ExpressionLike, expression
 from saltus.systems._switching import Forcing, Transition
 
@@ -40,6 +41,8 @@ class Definition:
     parameters: dict[str, tuple[int, ...]] = field(default_factory=dict)
     #: Place of the scale of each state, where one is given.
     scales: tuple[int | None, ...] = ()
+    #: Units that follow the sign of the guard of their first mode.
+    signs: tuple[int, ...] = ()
 
     def program(self) -> _native.Program:
         """The same as a program of the engine."""
@@ -51,6 +54,7 @@ class Definition:
             clock=self.clock,
             units=self.units,
             scales=self.scales,
+            signs=self.signs,
         )
 
 
@@ -186,6 +190,7 @@ def _define(
         forced=forcing is not None,
         clock=listing.place(clock),
         units=listing.units(transitions),
+        signs=listing.signs(),
         scales=tuple(None if (scale := state.tag[1]) is None else listing.place(scale) for state in own),
         operations=tuple(listing.operations),
         states=tuple(str(state) for state in own),
@@ -299,7 +304,18 @@ class _Listing:
             target = one.unit.modes.index(one.target)
             leave = (self.place(one.guard), sign, target, resets, vanishing)
             leaves.setdefault((one.unit, one.source), []).append(leave)
+        # a guard may hold units that were not known before
+        for unit in self.known_units:
+            if isinstance(unit, Sides):
+                guard = self.place(unit.guard)
+                leaves[unit, "negative"] = [(guard, -1.0, 1, [], [])]
+                leaves[unit, "positive"] = [(guard, 1.0, 0, [], [])]
         return tuple(
             tuple(tuple(leaves.get((unit, mode), ())) for mode in unit.modes)
             for unit in self.known_units
         )
+
+    def signs(self) -> tuple[int, ...]:
+        """The units that follow a sign, those first on which the guards of others depend."""
+        follow = [index for index, unit in enumerate(self.known_units) if isinstance(unit, Sides)]
+        return tuple(sorted(follow, key=lambda index: self._places[self.known_units[index].guard]))  # type: ignore[attr-defined]

@@ -176,7 +176,12 @@ fn guards<A: Arith>(
                     count,
                     factors,
                 } => self.products(*out, *count, *factors)?,
-                Op::Squares { .. } => return Err(std::fmt::Error),
+                Op::Squares { .. }
+                | Op::Quotient { .. }
+                | Op::Power { .. }
+                | Op::Function { .. } => {
+                    return Err(std::fmt::Error);
+                }
             }
             for (node, slot) in &s.keeps[step.keeps.0..step.keeps.1] {
                 writeln!(self.out, "    row[{slot}] = a.store(n{node});")?;

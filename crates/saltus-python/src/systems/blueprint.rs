@@ -30,6 +30,54 @@ pub(crate) enum Step {
     },
     Squares(Vec<(usize, Value)>),
     Products(Vec<(usize, Value, Value)>),
+    Quotient {
+        out: usize,
+        dividend: Value,
+        divisor: Value,
+    },
+    Power {
+        out: usize,
+        base: Value,
+        exponent: Coefficient,
+    },
+    Function {
+        out: usize,
+        function: Function,
+        of: Value,
+    },
+}
+
+/// Elementary functions of the engine. Of a pair the second result is the place after the first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Function {
+    Exp,
+    Log,
+    SinCos,
+    Tan,
+    SinhCosh,
+    Tanh,
+    Arcsin,
+    Arctan,
+}
+
+impl Function {
+    /// Whether it has two results.
+    pub(crate) fn is_pair(self) -> bool {
+        matches!(self, Self::SinCos | Self::SinhCosh)
+    }
+
+    fn build(self, b: &mut SystemBuilder, u: Node) -> Vec<Node> {
+        match self {
+            Self::Exp => vec![b.exp(u)],
+            Self::Log => vec![b.log(u)],
+            Self::SinCos => <[Node; 2]>::from(b.sin_cos(u)).into(),
+            Self::Tan => vec![b.tan(u)],
+            Self::SinhCosh => <[Node; 2]>::from(b.sinh_cosh(u)).into(),
+            Self::Tanh => vec![b.tanh(u)],
+            Self::Arcsin => vec![b.asin(u)],
+            Self::Arctan => vec![b.atan(u)],
+        }
+    }
 }
 
 /// A transition out of a mode: as [`Transition`], of quantities or of places that stand for them.
@@ -64,6 +112,8 @@ pub(crate) struct Blueprint {
     pub(crate) scales: Vec<Option<Coefficient>>,
     /// Transitions out of each mode of each unit.
     pub(crate) units: Vec<Vec<Vec<Leave>>>,
+    /// Units that follow the sign of the guard of their first mode.
+    pub(crate) signs: Vec<usize>,
 }
 
 /// Reasons why there is no system at some parameters.
@@ -109,7 +159,13 @@ impl Blueprint {
                 b.scale(state, values.of(*scale));
             }
         }
-        for (unit, modes) in units.into_iter().zip(&self.units) {
+        for (number, (unit, modes)) in units.into_iter().zip(&self.units).enumerate() {
+            if self.signs.contains(&number)
+                && let Some(leave) = modes.iter().flatten().next()
+            {
+                b.follow_sign(unit, nodes.of(leave.guard));
+                continue;
+            }
             let leave = |leave: &Leave| nodes.transition(leave);
             let modes = modes.iter().map(|all| all.iter().map(leave).collect());
             b.define_unit(unit, modes.collect());
@@ -162,7 +218,11 @@ impl Blueprint {
                     constant, terms, ..
                 } => of(terms).into_iter().chain(*constant).collect(),
                 Step::Gate { by_mode, terms, .. } => [of(terms), by_mode.clone()].concat(),
-                Step::Squares(_) | Step::Products(_) => Vec::new(),
+                Step::Power { exponent, .. } => vec![*exponent],
+                Step::Squares(_)
+                | Step::Products(_)
+                | Step::Quotient { .. }
+                | Step::Function { .. } => Vec::new(),
             }
         })
     }
@@ -201,6 +261,19 @@ impl Nodes {
             } => {
                 let by_mode: Vec<f64> = by_mode.iter().map(|&c| values.of(c)).collect();
                 self.0[*out] = b.gated_linear(units[*unit], &by_mode, &sum(self, terms));
+            }
+            Step::Quotient {
+                out,
+                dividend,
+                divisor,
+            } => self.0[*out] = b.quotient(self.of(*dividend), self.of(*divisor)),
+            Step::Power {
+                out,
+                base,
+                exponent,
+            } => self.0[*out] = b.power(self.of(*base), values.of(*exponent)),
+            Step::Function { out, function, of } => {
+                self.put(*out.., function.build(b, self.of(*of)));
             }
             Step::Squares(list) => {
                 let of: Vec<Node> = list.iter().map(|&(_, value)| self.of(value)).collect();

@@ -21,7 +21,7 @@ pub(crate) enum Op {
     },
 }
 
-/// Operations on one number. All but the negative are for numbers that do not change with time.
+/// Operations on one number. The absolute value is for numbers that do not change with time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Unary {
     Negative,
@@ -31,6 +31,10 @@ pub(crate) enum Unary {
     Sin,
     Cos,
     Tan,
+    Sinh,
+    Cosh,
+    Tanh,
+    Arcsin,
     Arctan,
     Absolute,
 }
@@ -45,6 +49,10 @@ impl Unary {
             Self::Sin => x.sin(),
             Self::Cos => x.cos(),
             Self::Tan => x.tan(),
+            Self::Sinh => x.sinh(),
+            Self::Cosh => x.cosh(),
+            Self::Tanh => x.tanh(),
+            Self::Arcsin => x.asin(),
             Self::Arctan => x.atan(),
             Self::Absolute => x.abs(),
         }
@@ -95,6 +103,10 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Op {
             "sin" => Some(Unary::Sin),
             "cos" => Some(Unary::Cos),
             "tan" => Some(Unary::Tan),
+            "sinh" => Some(Unary::Sinh),
+            "cosh" => Some(Unary::Cosh),
+            "tanh" => Some(Unary::Tanh),
+            "arcsin" => Some(Unary::Arcsin),
             "arctan" => Some(Unary::Arctan),
             "absolute" => Some(Unary::Absolute),
             _ => None,

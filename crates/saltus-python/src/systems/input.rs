@@ -21,6 +21,8 @@ pub(crate) struct Definition {
     pub(crate) scales: Vec<Option<usize>>,
     pub(crate) clock: Clock<usize>,
     pub(crate) units: Vec<Vec<Vec<Leave<usize>>>>,
+    /// Units that follow the sign of the guard of their first mode.
+    pub(crate) signs: Vec<usize>,
 }
 
 /// Fault of lists that are no definition: they were not made by this version of saltus, or were altered.
@@ -62,6 +64,10 @@ impl Definition {
                 let mut resets = leave.resets.iter();
                 resets.try_for_each(|&(state, _)| within("state", state, self.rates.len()))?;
             }
+        }
+        for &unit in &self.signs {
+            within("unit", unit, self.units.len())?;
+            within("mode", 1, self.units[unit].len())?;
         }
         within("unit", self.units.len().saturating_sub(1), MAX_UNITS)
     }

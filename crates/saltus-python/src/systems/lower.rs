@@ -6,7 +6,7 @@
 
 use std::collections::HashMap;
 
-use super::blueprint::{Blueprint, Clock, Leave, Step, Terms, Value};
+use super::blueprint::{Blueprint, Clock, Function, Leave, Step, Terms, Value};
 use super::coefficients::{Coefficient, Coefficients};
 use super::formula::{Binary, Op, Unary};
 use super::input::{Astray, Definition};
@@ -32,17 +32,21 @@ enum Made {
     Linear(Option<Coefficient>, Terms),
     Gate(usize, Vec<Coefficient>, Terms),
     Product(Value, Value),
+    Quotient(Value, Value),
+    Power(Value, Coefficient),
+    Function(Function, Value),
+    /// The second result of the pair before it.
+    Second(Function, Value),
 }
 
 /// Reasons why formulas are no program.
 #[derive(Clone, Debug, thiserror::Error)]
 pub(crate) enum NoProgram {
     #[error(
-        "{0} of something that changes with time: a system is made of sums, products and whole powers of its \
-         states; a further state whose rate is known can stand for other functions"
+        "the absolute value of something that changes with time switches: a unit has to stand for it"
     )]
-    NotPolynomial(&'static str),
-    #[error("a power of a state must be a whole number from 0 to 64")]
+    Switches,
+    #[error("the exponent of a power must not change with time")]
     Exponent,
     #[error("{0} must not change with time")]
     Moving(&'static str),
@@ -94,6 +98,7 @@ pub(crate) fn lower(definition: &Definition) -> Result<Blueprint, NoProgram> {
         rates,
         scales,
         units,
+        signs: definition.signs.clone(),
     })
 }
 
@@ -163,8 +168,39 @@ impl Lowering {
                 let minus = self.coefficients.number(-1.0);
                 Ok(self.scaled(form, Binary::Multiply, minus))
             }
-            _ => Err(NoProgram::NotPolynomial("a function")),
+            Unary::Absolute => Err(NoProgram::Switches),
+            _ => {
+                let of = self.whole(form);
+                let value = self.function(op, of);
+                Ok(self.quantity(value))
+            }
         }
+    }
+
+    /// A function of a quantity.
+    fn function(&mut self, op: Unary, of: Value) -> Value {
+        let (function, second) = match op {
+            Unary::Sqrt => {
+                let half = self.coefficients.number(0.5);
+                return self.make(Made::Power(of, half));
+            }
+            Unary::Log => (Function::Log, false),
+            Unary::Sin => (Function::SinCos, false),
+            Unary::Cos => (Function::SinCos, true),
+            Unary::Tan => (Function::Tan, false),
+            Unary::Sinh => (Function::SinhCosh, false),
+            Unary::Cosh => (Function::SinhCosh, true),
+            Unary::Tanh => (Function::Tanh, false),
+            Unary::Arcsin => (Function::Arcsin, false),
+            Unary::Arctan => (Function::Arctan, false),
+            Unary::Exp | Unary::Negative | Unary::Absolute => (Function::Exp, false),
+        };
+        let first = self.make(Made::Function(function, of));
+        if !function.is_pair() {
+            return first;
+        }
+        let other = self.make(Made::Second(function, of));
+        if second { other } else { first }
     }
 
     fn binary(&mut self, op: Binary, a: usize, b: usize) -> Result<Form, NoProgram> {
@@ -182,7 +218,7 @@ impl Lowering {
             Binary::Multiply => Ok(self.times(first, second)),
             Binary::Divide => match as_number(&second) {
                 Some(c) => Ok(self.scaled(first, Binary::Divide, c)),
-                None => self.divided_by_mode(first, second),
+                None => Ok(self.divided(first, second)),
             },
             Binary::Power => self.power(first, &second),
         }
@@ -250,21 +286,37 @@ impl Lowering {
         }
     }
 
-    /// A sum divided by a number for each mode: times its reciprocal.
-    fn divided_by_mode(&mut self, a: Form, by: Form) -> Result<Form, NoProgram> {
+    /// A sum divided by a number for each mode, that is times its reciprocal, or by a quantity.
+    fn divided(&mut self, a: Form, by: Form) -> Form {
         let one = self.coefficients.number(1.0);
-        match self.elementwise(Binary::Divide, &number(one), &by) {
-            Some(inverse) => Ok(self.times(a, inverse)),
-            None => Err(NoProgram::NotPolynomial("a division by")),
+        if let Some(inverse) = self.elementwise(Binary::Divide, &number(one), &by) {
+            return self.times(a, inverse);
         }
+        let ((c, a), (d, b)) = (self.factor(a), self.factor(by));
+        let value = self.make(Made::Quotient(a, b));
+        let coefficient = self.coefficients.binary(Binary::Divide, c, d);
+        let form = self.quantity(value);
+        self.scaled(form, Binary::Multiply, coefficient)
     }
 
     fn power(&mut self, base: Form, exponent: &Form) -> Result<Form, NoProgram> {
-        let literal = as_number(exponent).and_then(|c| self.coefficients.literal(c));
-        let whole = literal.filter(|n| n.fract() == 0.0 && (0.0..=64.0).contains(n));
-        let n = whole.ok_or(NoProgram::Exponent)? as u32;
+        let by = as_number(exponent).ok_or(NoProgram::Exponent)?;
+        let literal = self.coefficients.literal(by);
+        let whole = literal.filter(|n| n.fract() == 0.0 && n.abs() <= 64.0);
+        let Some(whole) = whole else {
+            let base = self.whole(base);
+            let value = self.make(Made::Power(base, by));
+            return Ok(self.quantity(value));
+        };
+        let one = self.coefficients.number(1.0);
+        let n = whole.abs() as u32;
         if n == 0 {
-            return Ok(number(self.coefficients.number(1.0)));
+            return Ok(number(one));
+        }
+        if whole < 0.0 {
+            let positive = number(self.coefficients.number(-whole));
+            let raised = self.power(base, &positive)?;
+            return Ok(self.divided(number(one), raised));
         }
         let (c, value) = self.factor(base);
         let exponent = self.coefficients.number(f64::from(n));
@@ -370,6 +422,11 @@ impl Lowering {
     /// An operation as a quantity.
     fn value(&mut self, at: usize) -> Value {
         let form = self.form(at);
+        self.whole(form)
+    }
+
+    /// A form as a quantity.
+    fn whole(&mut self, form: Form) -> Value {
         let (constant, terms) = self.sum(form);
         match (constant, terms.as_slice()) {
             (None, &[(c, value)]) if self.coefficients.literal(c) == Some(1.0) => value,
@@ -442,7 +499,8 @@ impl Lowering {
         let highest = |terms: &Terms| terms.iter().map(|(_, v)| level(v)).max().unwrap_or(0);
         self.levels.push(match &made {
             Made::Linear(_, terms) | Made::Gate(_, _, terms) => highest(terms),
-            Made::Product(a, b) => 1 + level(a).max(level(b)),
+            Made::Product(a, b) | Made::Quotient(a, b) => 1 + level(a).max(level(b)),
+            Made::Power(of, _) | Made::Function(_, of) | Made::Second(_, of) => 1 + level(of),
         });
         let value = Value::Made(self.made.len());
         self.known.insert(made.clone(), value);
@@ -454,12 +512,29 @@ impl Lowering {
     fn steps(&self) -> Vec<Step> {
         let mut steps = Vec::new();
         for level in 0..=self.levels.iter().copied().max().unwrap_or(0) {
-            let (mut squares, mut products, mut sums) = (Vec::new(), Vec::new(), Vec::new());
+            let (mut squares, mut products) = (Vec::new(), Vec::new());
+            let (mut functions, mut sums) = (Vec::new(), Vec::new());
             let here = (0..self.made.len()).filter(|&i| self.levels[i] == level);
             for out in here {
                 match &self.made[out] {
                     Made::Product(a, b) if a == b => squares.push((out, *a)),
                     Made::Product(a, b) => products.push((out, *a, *b)),
+                    Made::Quotient(dividend, divisor) => functions.push(Step::Quotient {
+                        out,
+                        dividend: *dividend,
+                        divisor: *divisor,
+                    }),
+                    Made::Power(base, exponent) => functions.push(Step::Power {
+                        out,
+                        base: *base,
+                        exponent: *exponent,
+                    }),
+                    Made::Function(function, of) => functions.push(Step::Function {
+                        out,
+                        function: *function,
+                        of: *of,
+                    }),
+                    Made::Second(..) => {}
                     Made::Linear(constant, terms) => sums.push(Step::Linear {
                         out,
                         constant: *constant,
@@ -479,6 +554,7 @@ impl Lowering {
             if !products.is_empty() {
                 steps.push(Step::Products(products));
             }
+            steps.append(&mut functions);
             steps.append(&mut sums);
         }
         steps

@@ -39,7 +39,8 @@ impl Program {
 impl Program {
     /// From operations in which each reads earlier ones, and the places of rates, units and clock among them.
     #[new]
-    #[pyo3(signature = (*, operations, parameters, rates, forced, clock, units, scales=Vec::new()))]
+    #[expect(clippy::too_many_arguments, reason = "named in Python")]
+    #[pyo3(signature = (*, operations, parameters, rates, forced, clock, units, scales=Vec::new(), signs=Vec::new()))]
     fn new(
         operations: Vec<Op>,
         parameters: usize,
@@ -48,6 +49,7 @@ impl Program {
         clock: usize,
         units: Vec<Vec<Vec<Leave<usize>>>>,
         scales: Vec<Option<usize>>,
+        signs: Vec<usize>,
     ) -> PyResult<Self> {
         let definition = Definition {
             ops: operations,
@@ -60,6 +62,7 @@ impl Program {
                 Clock::Interval(clock)
             },
             units,
+            signs,
         };
         let blueprint = sound(|| lower(&definition).map_err(of_definition))?;
         Ok(Self {
