@@ -9,7 +9,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from saltus import FormulaError
+from saltus import DefinitionError, FormulaError
 from saltus.systems import Forcing, System, Unit, find_orbit, integrate, parameters, states
 
 if TYPE_CHECKING:
@@ -227,3 +227,21 @@ def test_out_of_its_domain_a_member_ends_alone_and_says_by_what(formula: Any, re
 def test_what_is_no_formula_is_refused_with_what_to_write(formula: Any, instead: str) -> None:
     with pytest.raises(FormulaError, match=instead):
         formula(states("x")[0])
+
+
+def test_harmonics_of_a_forcing_have_their_frequency_and_phase() -> None:
+    forcing = Forcing(2.0)
+    (phase,) = parameters("phase")
+    x, y, z = states("x", "y", "z")
+    rates = [forcing.harmonic(5, phase=0.4), forcing.harmonic(3, phase=phase), forcing.harmonic(64)]
+    system = System([x, y, z], rates, forcing=forcing)
+    run = integrate(system, [0.0, 0.0, 0.0], 1, parameters={"phase": -1.2}, samples_per_period=7)
+    t = run.time
+    assert run.samples[:, 0] == pytest.approx((np.sin(10.0 * t + 0.4) - np.sin(0.4)) / 10.0, abs=1e-9)
+    assert run.samples[:, 1] == pytest.approx((np.sin(6.0 * t - 1.2) - np.sin(-1.2)) / 6.0, abs=1e-9)
+    assert run.samples[:, 2] == pytest.approx(np.sin(128.0 * t) / 128.0, abs=1e-9)
+    assert forcing.harmonic(0).tag == 1.0
+    with pytest.raises(ValueError, match="multiple"):
+        forcing.harmonic(-1)
+    with pytest.raises(DefinitionError, match="must not change with time"):
+        forcing.harmonic(1, phase=x)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
@@ -20,23 +21,27 @@ Pairs: TypeAlias = Mapping[Expression, Any] | Iterable[tuple[Any, Any]]
 
 
 class Forcing:
-    """A harmonic forcing. A system has one.
+    """A periodic forcing. A system has one.
 
     Parameters
     ----------
     frequency : float or Expression
-        Angular frequency Ω (rad per unit of time); positive.
+        Angular frequency Ω (rad per unit of time); positive. Of several commensurate frequencies the
+        largest of which all are whole multiples: 1 for 2 and 3.
 
     Attributes
     ----------
     cos, sin : Expression
-        cos Ωt and sin Ωt. Other phases and harmonics are sums and products of them. A second
-        frequency ω takes two further states c and s, with the rates -ω s and ω c and the start (1, 0).
+        cos Ωt and sin Ωt. `harmonic` gives multiples and other phases. A frequency ω that is no
+        multiple takes two further states c and s, with the rates -ω s and ω c and the start (1, 0).
 
     Examples
     --------
+    A beat of the frequencies 2 and 3, which repeats after 2π, the second a quarter of its period late:
+
+    >>> import numpy as np
     >>> forcing = Forcing(1.0)
-    >>> twice = 2.0 * forcing.cos**2 - 1.0  # cos 2t
+    >>> beat = forcing.harmonic(2) + forcing.harmonic(3, phase=-0.5 * np.pi)
     """
 
     def __init__(self, frequency: ExpressionLike) -> None:
@@ -45,6 +50,54 @@ class Forcing:
             raise DefinitionError("the frequency of a forcing must not change with time")
         self.cos = Expression("forcing cos", tag=self, changes=True)
         self.sin = Expression("forcing sin", tag=self, changes=True)
+
+    def harmonic(self, multiple: int = 1, phase: ExpressionLike = 0.0) -> Expression:
+        """Give cos(n Ωt + phase) as a formula.
+
+        Parameters
+        ----------
+        multiple : int, optional
+            The multiple n of the frequency; 0 to 64.
+        phase : float or Expression, optional
+            The phase (rad). A formula of parameters is possible; the sample of each period is taken at
+            Ωt = 0 whatever it is.
+
+        Returns
+        -------
+        Expression
+
+        Raises
+        ------
+        ValueError
+            If the multiple is out of its range.
+        DefinitionError
+            If the phase changes with time.
+
+        Examples
+        --------
+        >>> Forcing(2.0).harmonic(phase=0.3)
+        ((0.955336489125606 * forcing cos) - (0.29552020666133955 * forcing sin))
+        """
+        n = whole("multiple", multiple, 0, 64)
+        shift = expression(phase)
+        if shift.changes:
+            raise DefinitionError(f"the phase {shift!r} of a forcing must not change with time")
+        cos, sin = self._multiple(n) if n else (expression(1.0), expression(0.0))
+        if shift.operation == "number" and shift.tag == 0.0:
+            return cos
+        if shift.operation == "number":
+            return math.cos(shift.tag) * cos - math.sin(shift.tag) * sin
+        return shift.cos() * cos - shift.sin() * sin
+
+    def _multiple(self, n: int) -> tuple[Expression, Expression]:
+        """Give cos and sin of n Ωt, by halves, so that errors do not grow with n."""
+        if n == 1:
+            return self.cos, self.sin
+        cos, sin = self._multiple(n // 2)
+        cos, sin = 2.0 * cos * cos - 1.0, 2.0 * sin * cos
+        if n % 2:
+            cos, sin = cos * self.cos - sin * self.sin, sin * self.cos + cos * self.sin
+        return cos, sin
 
     def __repr__(self) -> str:
         """Show the frequency."""

@@ -274,9 +274,9 @@ class _Listing:
             )
         return (
             f"a formula holds the {what} of {other!r}, which is not the forcing of the system, "
-            f"{self._forcing!r}: a system has one, so take its own cos and sin. A second frequency w "
-            "takes two further states c and s, with the rates -w * s and w * c and the start (1, 0); "
-            "a multiple of the first is a product, such as cos(2t) = 2 * cos**2 - 1"
+            f"{self._forcing!r}: a system has one, so take its own cos and sin. A multiple n of its "
+            "frequency is harmonic(n); another frequency w takes two further states c and s, with the "
+            "rates -w * s and w * c and the start (1, 0)"
         )
 
     def state(self, state: Expression) -> int:
