@@ -143,7 +143,7 @@ const EXPONENTS: Known = (
 );
 const SHARES: Known = (
     "Shares come with 95 % confidence intervals of their own.",
-    "crates/saltus/src/study/fraction.rs",
+    "crates/saltus-study/src/fraction.rs",
 );
 const DIAGRAMS: Known = (
     "Diagrams are integrated at the tolerance 1e-7, with errors near 1e-6 after 20 periods.",

@@ -75,7 +75,7 @@ pub(crate) fn direction(pass: &Pass) -> String {
     match pass {
         Pass::Up => "up".to_owned(),
         Pass::Down => "down".to_owned(),
-        Pass::Start { z, v } => format!("start {z} {v}"),
+        Pass::Start((z, v)) => format!("start {z} {v}"),
     }
 }
 

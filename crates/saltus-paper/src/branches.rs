@@ -10,8 +10,8 @@ use saltus::orbits::{
 };
 use saltus::physics::{ContactLaw, FrequencyReference, Plate};
 use saltus::study::{
-    ContinuedAttractors, Control, OrbitError, OrbitSearch, Search, Starts, StudyError, Sweep,
-    follow, orbit_of, place, recurrence, second_opinion, sequence, settle, stroboscopic,
+    Bodies, ContinuedAttractors, Control, OrbitError, OrbitSearch, Search, Starts, StudyError,
+    follow, linspace, orbit_of, place, recurrence, second_opinion, sequence, settle, stroboscopic,
 };
 
 use crate::diagrams::{Diagram, Met, REPEATS};
@@ -234,8 +234,8 @@ impl Panel<'_> {
                 zeta: row.value,
                 period,
                 state: row.end.clone()?,
-                z: row.z.first()?.clone(),
-                v: row.v.first()?.clone(),
+                z: row.z().first()?.clone(),
+                v: row.v().first()?.clone(),
             }),
             _ => None,
         });
@@ -256,13 +256,13 @@ impl Panel<'_> {
         let starts: Vec<_> = starts.collect::<Result<_, ModelError>>()?;
         let settled = settle(&starts, self.effort.patience, RECORD, self.control)?;
         let seeds = zetas.into_iter().zip(settled).filter_map(|(zeta, motion)| {
-            let period = recurrence(&motion.z, &motion.v, REPEATS)? as usize;
+            let period = recurrence(&motion.z()[0], &motion.v()[0], REPEATS)? as usize;
             Some(Seed {
                 zeta,
                 period,
+                z: motion.z()[0].clone(),
+                v: motion.v()[0].clone(),
                 state: motion.end,
-                z: motion.z,
-                v: motion.v,
             })
         });
         let mut seeds: Vec<Seed> = seeds.collect();
@@ -413,7 +413,7 @@ impl Panel<'_> {
     }
 
     fn attractors(&self) -> Result<ContinuedAttractors, StudyError> {
-        let values = Sweep::linspace(ALONG.from, ALONG.to, self.effort.census_values);
+        let values = linspace(ALONG.from, ALONG.to, self.effort.census_values);
         let starts = Starts {
             count: self.effort.census_starts,
             z: [-2.0, 6.0],
@@ -547,14 +547,12 @@ fn of_census(attractors: &ContinuedAttractors) -> Vec<Seed> {
         let MotionKind::Periodic(period) = one.entry.attractor.kind else {
             return None;
         };
-        let section = one.arrival.section.first()?;
-        let (z, v) = section.iter().map(|&[z, v]| (z, v)).unzip();
         Some(Seed {
             zeta,
             period: period as usize,
             state: one.arrival.point.clone(),
-            z,
-            v,
+            z: one.arrival.z().first()?.clone(),
+            v: one.arrival.v().first()?.clone(),
         })
     });
     let mut seeds: Vec<Seed> = seeds.collect();

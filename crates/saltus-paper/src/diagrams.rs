@@ -5,7 +5,9 @@ use std::sync::Arc;
 use saltus::hybrid::Status;
 use saltus::model::{Inertia, Model, ModelError, PreparedPlate};
 use saltus::physics::{ContactLaw, FrequencyReference, Plate};
-use saltus::study::{Control, Pass, StudyError, Sweep, SweepRow, recurrence, sweep_many};
+use saltus::study::{
+    Bodies, Control, Pass, StudyError, Sweep, SweepRow, linspace, recurrence, sweep_many,
+};
 
 use crate::effort::Effort;
 use crate::setting::{RATIOS, setup};
@@ -80,10 +82,10 @@ fn sweep_of(effort: &Effort, law: ContactLaw) -> Sweep {
     let mut values = effort.law_values;
     if law == ContactLaw::ReactionForce {
         values = effort.values;
-        passes.extend(effort.starts.iter().map(|&(z, v)| Pass::Start { z, v }));
+        passes.extend(effort.starts.iter().map(|&(z, v)| Pass::Start((z, v))));
     }
     Sweep {
-        values: Sweep::linspace(0.1, 0.5, values),
+        values: linspace(0.1, 0.5, values),
         passes,
         start: (3.0, 2.0),
         transient: effort.transient,
@@ -127,7 +129,7 @@ impl Diagram {
 
     /// End of the motion of a row, held against the cycles that are stable at its damping ratio.
     pub fn met(row: &SweepRow, stretches: &[Stretch]) -> Met {
-        let (Some(z), Some(v)) = (row.z.first(), row.v.first()) else {
+        let (Some(z), Some(v)) = (row.z().first(), row.v().first()) else {
             return Met::Other;
         };
         if row.status != Ok(Status::Completed) {

@@ -3,7 +3,9 @@
 use saltus::hybrid::Status;
 use saltus::model::{Inertia, PreparedPlate};
 use saltus::physics::{ContactLaw, FrequencyReference, Plate};
-use saltus::study::{Control, Pass, StudyError, Sweep, SweepRow, recurrence, sweep_many};
+use saltus::study::{
+    Bodies, Control, Pass, StudyError, Sweep, SweepRow, linspace, recurrence, sweep_many,
+};
 
 use crate::effort::Effort;
 use crate::setting::{RATIOS, setup};
@@ -48,8 +50,8 @@ pub fn compare_inertia(
     let plate = PreparedPlate::new(&Plate::dias_del_prado())?;
     let (transient, record) = effort.full_periods;
     let sweep = Sweep {
-        values: Sweep::linspace(0.1, 0.5, effort.full_values),
-        passes: vec![Pass::Start { z: 3.0, v: 2.0 }],
+        values: linspace(0.1, 0.5, effort.full_values),
+        passes: vec![Pass::Start((3.0, 2.0))],
         start: (3.0, 2.0),
         transient,
         record,
@@ -93,8 +95,8 @@ impl Effort {
 fn compare(ratio: f64, full: &SweepRow, condensed: &SweepRow) -> InertiaRow {
     let section = |row: &SweepRow| {
         (
-            row.z.first().cloned().unwrap_or_default(),
-            row.v.first().cloned().unwrap_or_default(),
+            row.z().first().cloned().unwrap_or_default(),
+            row.v().first().cloned().unwrap_or_default(),
         )
     };
     let (a, b) = (section(full), section(condensed));

@@ -13,7 +13,7 @@ use std::time::Instant;
 
 use saltus::hybrid::{Method, Options, Segment, record};
 use saltus::model::{Inertia, Model, PreparedPlate, Setup};
-use saltus::study::{Control, Pass, Sweep, sweep};
+use saltus::study::{Bodies, Control, Pass, Sweep, linspace, sweep};
 
 type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 
@@ -104,11 +104,8 @@ fn main() -> Outcome<()> {
         setup.model_on(&plate)
     };
     let diagram = Sweep {
-        values: Sweep::linspace(0.1, 0.5, word(3).parse()?),
-        passes: vec![Pass::Start {
-            z: START.0,
-            v: START.1,
-        }],
+        values: linspace(0.1, 0.5, word(3).parse()?),
+        passes: vec![Pass::Start((START.0, START.1))],
         start: START,
         transient: periods - keep,
         record: keep,
@@ -125,7 +122,7 @@ fn main() -> Outcome<()> {
     let begun = seconds(wall);
     let rows = sweep(&diagram, at, &control)?;
     let spent = seconds(wall) - begun;
-    let samples: Vec<f64> = rows.iter().flat_map(|row| row.z[0].clone()).collect();
+    let samples: Vec<f64> = rows.iter().flat_map(|row| row.z()[0].clone()).collect();
     let mean = samples.iter().sum::<f64>() / samples.len() as f64;
     let json = format!(
         r#"{{"seconds": {spent}, "periods": {}, "error": {error:e}, "mean_z": {mean}, "steps_per_period": {steps}}}"#,

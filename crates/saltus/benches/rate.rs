@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use saltus::hybrid::{Method, Options, Segment, record};
 use saltus::model::{Model, ModelError, PreparedPlate, Setup};
-use saltus::study::{Control, Pass, Sweep, sweep};
+use saltus::study::{Control, Pass, Sweep, linspace, sweep};
 
 /// Seconds that the diagram takes.
 fn time<F>(
@@ -40,8 +40,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         setup.model_on(&plate)
     };
     let diagram = Sweep {
-        values: Sweep::linspace(0.1, 0.5, 256),
-        passes: vec![Pass::Start { z: 3.0, v: 2.0 }],
+        values: linspace(0.1, 0.5, 256),
+        passes: vec![Pass::Start((3.0, 2.0))],
         start: (3.0, 2.0),
         transient: 300,
         record: 100,

@@ -23,7 +23,7 @@ use saltus::hybrid::{Point, Segment, Status, record};
 use saltus::model::{Model, PreparedPlate, Setup};
 use saltus::orbits::{MotionKind, NewtonOptions, find_orbit};
 use saltus::study::{
-    Control, Grid, Search, Settled, StudyError, lyapunov_of_states, map, place, settle,
+    Bodies, Control, Grid, Search, Settled, StudyError, lyapunov_of_states, map, place, settle,
     stroboscopic,
 };
 
@@ -242,7 +242,7 @@ fn lasts(
 
 /// The stable cycle that a section is on.
 fn cycle(model: &Model, settled: &Settled, control: &Control) -> Option<(Name, String)> {
-    let (z, v) = (&settled.z, &settled.v);
+    let (z, v) = (&settled.z()[0], &settled.v()[0]);
     let last = z.len().checked_sub(1)?;
     let back = |n: &usize| {
         (last - n..=last)

@@ -5,7 +5,7 @@
 use std::io::Write as _;
 
 use saltus::model::{Inertia, Setup};
-use saltus::study::{Control, Pass, Sweep, recurrence, sweep};
+use saltus::study::{Bodies, Control, Pass, Sweep, linspace, recurrence, sweep};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Omega is 1.1 times the frequency at which the body bounces on the plate.
@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         setup.model()
     };
     let question = Sweep {
-        values: Sweep::linspace(0.3, 0.49, 20),
+        values: linspace(0.3, 0.49, 20),
         passes: vec![Pass::Down],
         start: (3.0, 2.0),
         transient: 400,
@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let mut out = std::io::stdout().lock();
     for row in sweep(&question, model_at, &Control::default())? {
-        let (z, v) = (&row.z[0], &row.v[0]);
+        let (z, v) = (&row.z()[0], &row.v()[0]);
         let motion = recurrence(z, v, 1e-3).map_or("no period".into(), |n| format!("{n}T"));
         let highest = z.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         writeln!(

@@ -7,7 +7,10 @@ use crate::data::{
 use crate::plane::Loss;
 use crate::quantities as q;
 use saltus::orbits::Exponent;
-use saltus::study::{AttractorCensus, BasinFraction, CountedAttractor, Lost, Row, Transient};
+use saltus::study::{
+    Arrival, AttractorCensus, BasinFraction, Bodies, CountedAttractor, Effects, Lost, Row,
+    Transient,
+};
 use saltus_results::{Dataset, Quantity, Table};
 
 pub(super) fn data(found: &Found) -> Dataset {
@@ -50,7 +53,7 @@ const NUMBERS: [Of<CountedAttractor, f64>; 8] = [
     (q::SHARE_LOW, |one| share(one.fraction)[1]),
     (q::SHARE_HIGH, |one| share(one.fraction)[2]),
     (q::PEAK_ACCELERATION, |one| {
-        one.entry.attractor.peak_acceleration
+        one.entry.attractor.peak_acceleration()
     }),
 ];
 
@@ -69,11 +72,11 @@ const COUNTS: [Of<CountedAttractor, u64>; 4] = [
 ];
 
 /// Numbers of each person.
-type Bodies = fn(&CountedAttractor) -> &[f64];
+type Each = fn(&CountedAttractor) -> &[f64];
 
-const BODIES: [(Quantity, Bodies); 2] = [
+const BODIES: [(Quantity, Each); 2] = [
     (q::CONTACT_RATIO, |one| &one.entry.attractor.contact_ratio),
-    (q::PEAK_REACTION, |one| &one.entry.attractor.peak_reaction),
+    (q::PEAK_REACTION, |one| one.entry.attractor.peak_reaction()),
 ];
 
 /// Numbers of each attractor at each value where it was met.
@@ -115,14 +118,12 @@ fn attractors(set: Dataset, found: &Found) -> Dataset {
 /// The sections of all attractors, one after the other: the points of a bifurcation diagram.
 fn sections(set: Dataset, found: &Found) -> Dataset {
     let over = ["motion", "jumper", "sample"];
-    let bodies = || found.met().flat_map(|(_, one)| &one.arrival.section);
-    let longest = bodies().map(Vec::len).max().unwrap_or(0);
-    let samples = |part: usize| -> Vec<f64> {
-        let samples = |body: &Vec<[f64; 2]>| {
-            let known: Vec<f64> = body.iter().map(|sample| sample[part]).collect();
-            padded(&known, longest).collect::<Vec<f64>>()
-        };
-        bodies().flat_map(samples).collect()
+    let bodies =
+        |of: fn(&Arrival) -> &[Vec<f64>]| found.met().flat_map(move |(_, one)| of(&one.arrival));
+    let longest = bodies(Arrival::z).map(Vec::len).max().unwrap_or(0);
+    let samples = |of: fn(&Arrival) -> &[Vec<f64>]| -> Vec<f64> {
+        let samples = |body: &Vec<f64>| padded(body, longest).collect::<Vec<f64>>();
+        bodies(of).flat_map(samples).collect()
     };
     let numbers = wholes(found.met().map(|(_, one)| one.identity + 1));
     let at: Vec<f64> = found.met().map(|(row, _)| row.value).collect();
@@ -144,8 +145,8 @@ fn sections(set: Dataset, found: &Found) -> Dataset {
         .coordinate(q::CONNECTED_SAMPLE.numbered(1, longest))
         .variable(q::MOTION_ATTRACTOR.over(&over[..1], numbers))
         .variable(q::ETA.over(&over[2 - each..2], heights))
-        .variable(q::Z.over(&over, samples(0)))
-        .variable(q::V.over(&over, samples(1)))
+        .variable(q::Z.over(&over, samples(Arrival::z)))
+        .variable(q::V.over(&over, samples(Arrival::v)))
         .table(samples_table.in_files())
         .table(table(&over[..1], &[]).in_document())
 }

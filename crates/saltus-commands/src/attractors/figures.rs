@@ -5,7 +5,7 @@ use super::{Found, name};
 use crate::colours;
 use crate::per_jumper::{PANELS, page, panel_title};
 use crate::words::{self, SECTION_HEIGHT, SECTION_VELOCITY, base_in_title};
-use saltus::study::{BasinFraction, CountedAttractor};
+use saltus::study::{BasinFraction, Bodies, CountedAttractor};
 use saltus_config::Parameter;
 use saltus_results::{Axis, Cloud, Colour, Curves, Figure, Panel};
 use std::cmp::Reverse;
@@ -96,8 +96,9 @@ impl<'a> Series<'a> {
     /// All samples of a jumper with the places of their values.
     fn samples(&self, jumper: usize) -> impl Iterator<Item = (usize, [f64; 2])> {
         self.points.iter().flat_map(move |(place, one)| {
-            let samples = one.arrival.section.get(jumper).into_iter().flatten();
-            samples.map(|&sample| (*place, sample))
+            let [z, v] = [one.arrival.z(), one.arrival.v()].map(|all| all.get(jumper));
+            let samples = z.into_iter().flatten().zip(v.into_iter().flatten());
+            samples.map(|(&z, &v)| (*place, [z, v]))
         })
     }
 }

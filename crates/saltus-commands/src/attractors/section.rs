@@ -3,8 +3,8 @@
 use saltus::study::ContinuedAttractors;
 use std::collections::BTreeMap;
 
-/// Samples [z/eta, z'/(eta omega_h)] of each body.
-type Section = Vec<Vec<[f64; 2]>>;
+/// Samples of each channel.
+type Section = Vec<Vec<f64>>;
 
 /// Rotates the section of each cycle so that it begins where it is nearest to the same attractor at the last value at
 /// which that was a cycle too; the first one begins with its lowest sample of the first jumper.
@@ -20,7 +20,9 @@ pub(super) fn connect(found: &mut ContinuedAttractors) {
             Some(before) => nearest(before, section),
             None => lowest(section),
         };
-        section.iter_mut().for_each(|body| body.rotate_left(turn));
+        section
+            .iter_mut()
+            .for_each(|samples| samples.rotate_left(turn));
         before.insert(counted.identity, section.clone());
     }
 }
@@ -30,7 +32,7 @@ fn samples(section: &Section) -> usize {
 }
 
 fn lowest(section: &Section) -> usize {
-    let heights = section.iter().take(1).flatten().map(|[z, _]| *z);
+    let heights = section.iter().take(1).flatten().copied();
     heights
         .enumerate()
         .min_by(|a, b| a.1.total_cmp(&b.1))
@@ -41,12 +43,11 @@ fn lowest(section: &Section) -> usize {
 fn nearest(before: &Section, section: &Section) -> usize {
     let whole = samples(before).max(samples(section));
     let apart = |turn: usize| -> f64 {
-        let bodies = before.iter().zip(section).flat_map(|(before, body)| {
-            let there = body.iter().cycle().skip(turn);
+        let pairs = before.iter().zip(section).flat_map(|(before, samples)| {
+            let there = samples.iter().cycle().skip(turn);
             before.iter().cycle().zip(there).take(whole)
         });
-        let square = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
-        bodies.map(square).sum()
+        pairs.map(|(a, b)| (a - b).powi(2)).sum()
     };
     (0..samples(section))
         .map(|turn| (turn, apart(turn)))
@@ -59,7 +60,7 @@ mod tests {
     use super::*;
 
     fn section(heights: &[f64]) -> Section {
-        vec![heights.iter().map(|&z| [z, -z]).collect()]
+        vec![heights.to_vec(), heights.iter().map(|z| -z).collect()]
     }
 
     #[test]
@@ -79,7 +80,7 @@ mod tests {
 
     #[test]
     fn nothing_is_not_turned() {
-        for none in [vec![], vec![vec![]]] {
+        for none in [vec![], vec![vec![], vec![]]] {
             assert_eq!(lowest(&none), 0);
             assert_eq!(nearest(&none, &none), 0);
             assert_eq!(nearest(&none, &section(&[1.0, 2.0])), 0);

@@ -4,7 +4,7 @@ use super::data::{exponent, first_failure, share};
 use super::{Found, name};
 use saltus::orbits::MotionKind;
 use saltus::study::{
-    AttractorCensus, BasinFraction, CountedAttractor, Hysteresis, RangeEnd, Row, Transient,
+    AttractorCensus, BasinFraction, CountedAttractor, Effects, Hysteresis, RangeEnd, Row, Transient,
 };
 use std::fmt::Write;
 
@@ -66,7 +66,7 @@ fn in_words(one: &CountedAttractor) -> String {
         percent(one.fraction),
         name(one),
         each(&motion.contact_ratio),
-        each(&motion.peak_reaction),
+        each(motion.peak_reaction()),
         evidence(one)
     )
 }

@@ -4,7 +4,7 @@ use super::Found;
 use crate::data::{eta, name, padded, values, whole, wholes};
 use crate::plane::{self, period};
 use crate::quantities as q;
-use saltus::study::{Attractor, Entry, Range};
+use saltus::study::{Attractor, Bodies, Effects, Entry, Range};
 use saltus_results::{Dataset, Quantity, Table};
 
 pub(super) fn data(found: &Found) -> Dataset {
@@ -38,7 +38,7 @@ fn attractors(set: Dataset, found: &Found) -> Dataset {
         .variable(q::BASIN_SHARE.over(&over, shares))
         .variable(
             q::BASIN_PEAK_ACCELERATION
-                .over(&over, number(&|entry| entry.attractor.peak_acceleration)),
+                .over(&over, number(&|entry| entry.attractor.peak_acceleration())),
         );
     // the first pixel that leads to it
     let starts = [
@@ -56,15 +56,18 @@ fn bodies(set: Dataset, found: &Found) -> Dataset {
     let over = ["attractor_number", "jumper"];
     let (entries, samples) = (&found.basins.attractors, found.samples());
     let motions = || entries.iter().map(|entry| &entry.attractor);
-    let numbers = |of: fn(&Attractor) -> &Vec<f64>| -> Vec<f64> {
-        motions().flat_map(|motion| of(motion).clone()).collect()
-    };
-    let ends = |set: Dataset, [min, max]: [Quantity; 2], of: fn(&(Range, Range)) -> Range| {
-        let ranges = || motions().flat_map(|motion| motion.ranges.iter().map(of));
+    let numbers =
+        |of: fn(&Attractor) -> &[f64]| -> Vec<f64> { motions().flat_map(of).copied().collect() };
+    let people = found.study.jumper.len();
+    let ends = |set: Dataset, [min, max]: [Quantity; 2], of: fn((Range, Range)) -> Range| {
+        let of_all = move |motion: &Attractor| -> Vec<Range> {
+            (0..people).map(|body| of(motion.range(body))).collect()
+        };
+        let ranges = || motions().flat_map(of_all);
         set.variable(min.over(&over, ranges().map(|range| range[0]).collect::<Vec<f64>>()))
             .variable(max.over(&over, ranges().map(|range| range[1]).collect::<Vec<f64>>()))
     };
-    let section = |of: fn(&Attractor) -> &Vec<Vec<f64>>| -> Vec<f64> {
+    let section = |of: fn(&Attractor) -> &[Vec<f64>]| -> Vec<f64> {
         let lists = motions().flat_map(|motion| from_the_lowest(motion, of(motion)));
         lists
             .flat_map(|list| padded(&list, samples).collect::<Vec<f64>>())
@@ -73,11 +76,11 @@ fn bodies(set: Dataset, found: &Found) -> Dataset {
     let places = ["attractor_number", "jumper", "sample"];
     let set = set
         .variable(q::BASIN_CONTACT_RATIO.over(&over, numbers(|motion| &motion.contact_ratio)))
-        .variable(q::BASIN_PEAK_REACTION.over(&over, numbers(|motion| &motion.peak_reaction)))
+        .variable(q::BASIN_PEAK_REACTION.over(&over, numbers(Attractor::peak_reaction)))
         .coordinate(q::BASIN_SAMPLE.numbered(1, samples))
         .ragged("sample")
-        .variable(q::BASIN_Z.over(&places, section(|motion| &motion.z)))
-        .variable(q::BASIN_V.over(&places, section(|motion| &motion.v)));
+        .variable(q::BASIN_Z.over(&places, section(Attractor::z)))
+        .variable(q::BASIN_V.over(&places, section(Attractor::v)));
     let set = ends(set, [q::BASIN_Z_MIN, q::BASIN_Z_MAX], |range| range.0);
     ends(set, [q::BASIN_V_MIN, q::BASIN_V_MAX], |range| range.1)
 }
@@ -127,13 +130,13 @@ fn tables(set: Dataset, found: &Found) -> Dataset {
 
 /// Samples of a cycle; 0 if the motion is none.
 fn length(motion: &Attractor) -> usize {
-    motion.z.first().map_or(0, Vec::len)
+    motion.z().first().map_or(0, Vec::len)
 }
 
 /// Rotates lists of samples so that a cycle begins with the lowest one of the first jumper: where it was met says
 /// nothing.
 fn from_the_lowest(motion: &Attractor, lists: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let first = motion.z.first().map_or(&[][..], Vec::as_slice);
+    let first = motion.z().first().map_or(&[][..], Vec::as_slice);
     let lowest = (0..first.len()).min_by(|&a, &b| first[a].total_cmp(&first[b]));
     let turned = lists.iter().map(|list| {
         let mut list = list.clone();

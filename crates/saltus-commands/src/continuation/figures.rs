@@ -7,7 +7,7 @@ use crate::failure::CommandError;
 use crate::kinds;
 use crate::per_jumper::{PANELS, page, panel_title};
 use crate::words::{self, SECTION_HEIGHT, base_in_title};
-use saltus::study::SweepRow;
+use saltus::study::{Bodies, SweepRow};
 use saltus_config::Parameter;
 use saltus_results::{Axis, BifurcationSet, Branches, Colour, Figure};
 
@@ -45,7 +45,7 @@ fn branches(found: &Found, jumper: usize, title: &str) -> Branches {
     );
     if !found.cloud.is_empty() {
         let points = found.cloud.iter().flat_map(|row: &SweepRow| {
-            let heights = row.z.get(jumper).map_or(&[][..], Vec::as_slice);
+            let heights = row.z().get(jumper).map_or(&[][..], Vec::as_slice);
             heights.iter().map(|&z| (row.value, z))
         });
         let (values, heights): (Vec<f64>, Vec<f64>) = points.unzip();

@@ -22,7 +22,9 @@ use question::Question;
 use saltus::hybrid::System;
 use saltus::model::{Model, ModelError};
 use saltus::orbits::{BranchWithOrigin, NewtonOptions, Orbit, Stroboscopic, branches, find_orbit};
-use saltus::study::{Control, OrbitSearch, Pass, Sweep, SweepRow, orbit_of, stroboscopic, sweep};
+use saltus::study::{
+    Control, OrbitSearch, Pass, Sweep, SweepRow, linspace, orbit_of, stroboscopic, sweep,
+};
 use saltus_config::Study;
 use saltus_results::{ClassMap, Dataset};
 use std::path::Path;
@@ -188,7 +190,7 @@ fn cloud(
     let (low, high) = (along.from.min(along.to), along.from.max(along.to));
     let (transient, record) = CLOUD;
     let plan = Sweep {
-        values: Sweep::linspace(low, high, question.table.cloud as usize),
+        values: linspace(low, high, question.table.cloud as usize),
         passes: vec![Pass::Up, Pass::Down],
         start: (study.start.z, study.start.v),
         transient,

@@ -89,44 +89,37 @@ impl Cell {
 
 fn write_motion(motion: &Attractor, out: &mut Writer) {
     out.kind(motion.kind);
-    out.whole(motion.ranges.len() as u64);
+    out.whole(motion.contact_ratio.len() as u64);
     out.numbers(&motion.contact_ratio);
-    out.numbers(&motion.peak_reaction);
-    out.numbers(&[motion.peak_acceleration, motion.rest]);
+    out.numbers(&motion.peaks);
+    out.numbers(&[motion.rest]);
     let given = [motion.confidence, motion.multiplier];
     out.numbers(&given.map(|value| value.unwrap_or(f64::NAN)));
     out.exponent(motion.exponent);
-    let sections = motion.z.iter().chain(&motion.v);
-    sections.for_each(|section| out.numbers(section));
-    for (z, v) in &motion.ranges {
-        out.numbers(&[z[0], z[1], v[0], v[1]]);
-    }
+    motion
+        .section
+        .iter()
+        .chain([&motion.ranges.concat()])
+        .for_each(|numbers| out.numbers(numbers));
 }
 
 fn motion(from: &mut Reader) -> Option<Attractor> {
     let kind = from.kind()?;
     let samples = kind.period().map_or(0, |n| n as usize);
     let bodies = usize::try_from(from.whole()?).ok()?;
-    let (contact_ratio, peak_reaction) = (from.numbers(bodies)?, from.numbers(bodies)?);
-    let (peak_acceleration, rest) = (from.number()?, from.number()?);
+    let (contact_ratio, peaks) = (from.numbers(bodies)?, from.numbers(1 + bodies)?);
+    let rest = from.number()?;
     let mut given = || Some(Some(from.number()?).filter(|value| !value.is_nan()));
     let (confidence, multiplier) = (given()?, given()?);
     let exponent = from.exponent()?;
-    let (z, v) = (from.lists(bodies, samples)?, from.lists(bodies, samples)?);
-    let range = |_| {
-        Some((
-            [from.number()?, from.number()?],
-            [from.number()?, from.number()?],
-        ))
-    };
+    let section = from.lists(2 * bodies, samples)?;
+    let range = |_| Some([from.number()?, from.number()?]);
     Some(Attractor {
         kind,
         contact_ratio,
-        peak_reaction,
-        peak_acceleration,
-        z,
-        v,
-        ranges: (0..bodies).map(range).collect::<Option<_>>()?,
+        peaks,
+        section,
+        ranges: (0..2 * bodies).map(range).collect::<Option<_>>()?,
         rest,
         multiplier,
         exponent,
@@ -145,11 +138,14 @@ mod tests {
         let cycle = Attractor {
             kind: MotionKind::Periodic(2),
             contact_ratio: vec![0.1 + 0.2, -0.0],
-            peak_reaction: vec![1e-308, 3.0],
-            peak_acceleration: 1.0 / 3.0,
-            z: vec![vec![1.0, 2.0], vec![3.0, f64::INFINITY]],
-            v: vec![vec![5.0, 6.0], vec![7.0, 8.0]],
-            ranges: vec![([1.0, 2.0], [5.0, 6.0]), ([3.0, 4.0], [7.0, 8.0])],
+            peaks: vec![1.0 / 3.0, 1e-308, 3.0],
+            section: vec![
+                vec![1.0, 2.0],
+                vec![3.0, f64::INFINITY],
+                vec![5.0, 6.0],
+                vec![7.0, 8.0],
+            ],
+            ranges: vec![[1.0, 2.0], [3.0, 4.0], [5.0, 6.0], [7.0, 8.0]],
             rest: 1e-9,
             multiplier: Some(0.75),
             exponent: None,
@@ -165,8 +161,7 @@ mod tests {
             }),
             confidence: Some(0.9999),
             multiplier: None,
-            z: vec![vec![]; 2],
-            v: vec![vec![]; 2],
+            section: vec![vec![]; 4],
             ..cycle.clone()
         };
         let lost = Loss {

@@ -4,6 +4,7 @@ use super::{Cell, Loss};
 use crate::failure::CommandError;
 use crate::quantities as q;
 use saltus::orbits::MotionKind;
+use saltus::study::Effects;
 use std::collections::BTreeMap;
 
 /// Status of a pixel, by its code in the layer of that name.
@@ -118,7 +119,7 @@ impl Layers {
         self.period.push(period.unwrap_or(0) as u16);
         self.status.push(Status::of(cell));
         self.peak_acceleration
-            .push(motion.map_or(f64::NAN, |m| m.peak_acceleration));
+            .push(motion.map_or(f64::NAN, Effects::peak_acceleration));
         let exponent = motion.and_then(|m| m.exponent);
         self.exponent
             .push(exponent.map_or(f64::NAN, |e| e.per_iterate));
@@ -129,7 +130,7 @@ impl Layers {
         for jumper in 0..self.contact_ratio.len() {
             let of = |list: &[f64]| list.get(jumper).copied().unwrap_or(f64::NAN);
             self.contact_ratio[jumper].push(motion.map_or(f64::NAN, |m| of(&m.contact_ratio)));
-            self.peak_reaction[jumper].push(motion.map_or(f64::NAN, |m| of(&m.peak_reaction)));
+            self.peak_reaction[jumper].push(motion.map_or(f64::NAN, |m| of(m.peak_reaction())));
         }
     }
 

@@ -6,7 +6,7 @@ use crate::data::{Listed, about, coordinate, padded, texts};
 use crate::kinds;
 use crate::quantities as q;
 use crate::words::direction;
-use saltus::study::Pass;
+use saltus::study::{Bodies, Pass};
 use saltus_config::Parameter;
 use saltus_paper::{Detail, Diagram, Met, PanelBranches};
 use saltus_results::{Dataset, Table, Variable};
@@ -47,7 +47,7 @@ fn fig2(results: &Results) -> Dataset {
     let values: Vec<f64> = values.collect();
     let record = results.effort.record as usize;
     let heights = panels.iter().flat_map(|panel| &panel.rows).flat_map(|row| {
-        let samples = row.z.first().map_or(&[][..], Vec::as_slice);
+        let samples = row.z().first().map_or(&[][..], Vec::as_slice);
         padded(samples, record)
     });
     let heights: Vec<f64> = heights.collect();
@@ -97,7 +97,7 @@ fn passes(set: Dataset, passes: &[Pass]) -> Dataset {
     let over = ["direction"];
     let start = |part: fn((f64, f64)) -> f64| -> Vec<f64> {
         let of = |pass: &Pass| match *pass {
-            Pass::Start { z, v } => part((z, v)),
+            Pass::Start((z, v)) => part((z, v)),
             Pass::Up | Pass::Down => f64::NAN,
         };
         passes.iter().map(of).collect()

@@ -2,7 +2,7 @@
 
 use saltus::model::Observation;
 use saltus::physics::{ContactLaw, FrequencyReference};
-use saltus::study::Pass;
+use saltus::study::{Bodies, Pass};
 use saltus_paper::{CaseResult, Diagram, InertiaRow, RATIOS};
 use saltus_results::{Axis, Cloud, Figure, History, Panel, Portrait};
 
@@ -58,7 +58,7 @@ fn pass_name(pass: &Pass) -> String {
     match pass {
         Pass::Up => "$ζ_h$ rising".into(),
         Pass::Down => "$ζ_h$ falling, where it differs".into(),
-        Pass::Start { z, v } => format!("from $z/η$ = {z}, $ż/(η ω_h)$ = {v}, where it differs"),
+        Pass::Start((z, v)) => format!("from $z/η$ = {z}, $ż/(η ω_h)$ = {v}, where it differs"),
     }
 }
 
@@ -66,7 +66,7 @@ fn pass_name(pass: &Pass) -> String {
 pub(super) fn points(diagram: &Diagram, pass: usize) -> (Vec<f64>, Vec<f64>) {
     let rows = diagram.pass(pass);
     let samples = rows.flat_map(|row| {
-        let z = row.z.first().map_or(&[][..], Vec::as_slice);
+        let z = row.z().first().map_or(&[][..], Vec::as_slice);
         z.iter().map(|&z| (row.value, z))
     });
     samples.unzip()

@@ -6,7 +6,7 @@ use crate::quantities as q;
 use crate::status;
 use crate::words::direction;
 use saltus::orbits::{Exponent, MotionKind};
-use saltus::study::SweepRow;
+use saltus::study::{Bodies, SweepRow};
 use saltus_results::{Dataset, Table};
 
 pub(super) fn data(found: &Found) -> Dataset {
@@ -46,7 +46,7 @@ fn samples(set: Dataset, found: &Found) -> Dataset {
     let over = ["direction", &value, "jumper", "sample"];
     let jumpers = found.jumpers();
     // a row without a model has no samples of anybody
-    let each = |of: fn(&SweepRow) -> &Vec<Vec<f64>>| -> Vec<f64> {
+    let each = |of: fn(&SweepRow) -> &[Vec<f64>]| -> Vec<f64> {
         let bodies = found.rows.iter().flat_map(|row| {
             let samples = move |i| of(&row.run).get(i).map_or(&[][..], Vec::as_slice);
             (0..jumpers).map(samples)
@@ -57,8 +57,8 @@ fn samples(set: Dataset, found: &Found) -> Dataset {
     let ratios = ratios.flat_map(|row| padded(&row.run.contact_ratio, jumpers));
     let heights = eta(&found.study, Some((&found.parameter, &found.sweep.values)));
     set.variable(q::ETA.over(&over[1..3], heights))
-        .variable(q::Z.over(&over, each(|row| &row.z)))
-        .variable(q::V.over(&over, each(|row| &row.v)))
+        .variable(q::Z.over(&over, each(SweepRow::z)))
+        .variable(q::V.over(&over, each(SweepRow::v)))
         .variable(q::CONTACT_RATIO.over(&over[..3], ratios.collect::<Vec<f64>>()))
 }
 

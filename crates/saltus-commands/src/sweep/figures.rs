@@ -5,7 +5,7 @@ use super::{Found, Row};
 use crate::per_jumper::{PANELS, page, panel_title};
 use crate::words::{SECTION_HEIGHT, axis, base_in_title, capitalized};
 use saltus::orbits::Exponent;
-use saltus::study::Pass;
+use saltus::study::{Bodies, Pass};
 use saltus_results::{Axis, Cloud, Curves, Figure, Panel};
 
 pub(super) fn bifurcation(found: &Found) -> Figure {
@@ -33,7 +33,7 @@ fn cloud(found: &Found, jumper: usize, title: &str) -> Cloud {
     let passes = found.sweep.passes.iter().enumerate();
     passes.fold(cloud, |cloud, (index, pass)| {
         let points = found.rows_of(index).flat_map(|row| {
-            let heights = row.run.z.get(jumper).map_or(&[][..], Vec::as_slice);
+            let heights = row.run.z().get(jumper).map_or(&[][..], Vec::as_slice);
             heights.iter().map(|&z| (row.run.value, z))
         });
         let (values, heights): (Vec<f64>, Vec<f64>) = points.unzip();
@@ -126,6 +126,6 @@ fn label(found: &Found, pass: &Pass) -> String {
             };
             format!("${symbol}$ {way}")
         }
-        Pass::Start { z, v } => format!("From $z/η$ = {z}, $ż/(η ω_h)$ = {v}"),
+        Pass::Start((z, v)) => format!("From $z/η$ = {z}, $ż/(η ω_h)$ = {v}"),
     }
 }

@@ -42,7 +42,7 @@ impl<'a> Restarts<'a> {
         passes
             .map(|items| Sweep {
                 values: items.iter().map(|&item| self.place(item).1).collect(),
-                passes: vec![self.sweep.passes[self.place(items[0]).0]],
+                passes: vec![self.sweep.passes[self.place(items[0]).0].clone()],
                 ..self.sweep.clone()
             })
             .collect()
@@ -92,12 +92,9 @@ impl Job for Restarts<'_> {
     fn write(&self, row: &Row, out: &mut Writer) {
         let run = &row.run;
         write_status(run.status.as_ref().ok(), out);
-        out.whole(run.z.len() as u64);
-        out.whole(run.z.first().map_or(0, Vec::len) as u64);
-        run.z
-            .iter()
-            .chain(&run.v)
-            .for_each(|samples| out.numbers(samples));
+        out.whole(run.section.len() as u64);
+        out.whole(run.section.first().map_or(0, Vec::len) as u64);
+        run.section.iter().for_each(|samples| out.numbers(samples));
         out.whole(run.contact_ratio.len() as u64);
         out.numbers(&run.contact_ratio);
         out.whole(row.label.is_some().into());
@@ -120,12 +117,11 @@ impl Job for Restarts<'_> {
             // asked again rather than kept: that there is no model costs nothing to find
             None => Err(self.models.at(&[value]).err()?),
         };
-        let (bodies, samples) = (size(from)?, size(from)?);
+        let (channels, samples) = (size(from)?, size(from)?);
         let run = SweepRow {
             pass,
             value,
-            z: from.lists(bodies, samples)?,
-            v: from.lists(bodies, samples)?,
+            section: from.lists(channels, samples)?,
             contact_ratio: size(from).and_then(|count| from.numbers(count))?,
             status,
             end: None,

@@ -203,7 +203,7 @@ fn question(study: &Study) -> Result<(&SweepTable, Parameter), CommandError> {
 }
 
 fn plan(study: &Study, table: &SweepTable) -> Sweep {
-    let restart = |&[z, v]: &[f64; 2]| Pass::Start { z, v };
+    let restart = |&[z, v]: &[f64; 2]| Pass::Start((z, v));
     Sweep {
         values: table.values(),
         passes: match table.direction {
@@ -357,7 +357,7 @@ impl Found {
     /// Height and velocity with which a pass begins, over eta and eta omega_h.
     fn start(&self, pass: &Pass) -> [f64; 2] {
         match *pass {
-            Pass::Start { z, v } => [z, v],
+            Pass::Start((z, v)) => [z, v],
             Pass::Up | Pass::Down => self.sweep.start.into(),
         }
     }

@@ -4,7 +4,7 @@
 use saltus::orbits::{MotionKind, SpecialKind};
 use saltus::physics::ContactLaw;
 use saltus::physics::FrequencyReference::{Free, Occupied};
-use saltus::study::Control;
+use saltus::study::{Bodies, Control};
 use saltus_paper::{
     Diagram, Edge, Effort, Fact, Met, PanelBranches, Stretch, Verdict, compare_inertia, diagrams,
     facts, misprints, panel_branches, run_cases,
@@ -149,7 +149,7 @@ fn sweeps_agree_with_stretches(diagrams: &[Diagram], branches: &[PanelBranches])
             match Diagram::met(row, &panel.stretches) {
                 Met::Cycle(period) => {
                     // samples of the row itself, one period later
-                    let pairs = row.z[0].iter().zip(&row.z[0][period..]);
+                    let pairs = row.z()[0].iter().zip(&row.z()[0][period..]);
                     let apart = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
                     assert!(
                         apart < 0.12,

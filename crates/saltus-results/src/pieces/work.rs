@@ -9,7 +9,7 @@ use std::path::Path;
 pub const MANIFEST: &str = "saltus-pieces.json";
 
 /// Version of the format; pieces of another version are not read.
-pub(super) const FORMAT: u32 = 1;
+pub(super) const FORMAT: u32 = 2;
 
 /// Names and values that describe the work of the pieces in `dir`, as given at its first opening.
 ///

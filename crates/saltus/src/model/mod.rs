@@ -32,7 +32,7 @@ use layout::Layout;
 use ledger::EnergyLedger;
 pub use leg::Contact;
 pub use prepared::PreparedPlate;
-pub(crate) use probe::Probe;
+pub use probe::Probe;
 pub use scales::{JumperScale, Scales};
 pub use setup::{GRAVITY, Inertia, Setup};
 pub use state::{Observation, Section};
@@ -139,15 +139,9 @@ impl Model {
         &self.system
     }
 
-    /// Shares the program of a model that has the same one, which makes comparing them cheap.
-    pub(crate) fn share_structure(&mut self, other: &Self) {
-        self.system = self.system.clone().sharing(&other.system);
-    }
-
-    /// As [`Self::share_structure`] with a system; whether it has the same program.
-    pub(crate) fn share_system(&mut self, other: &System) -> bool {
-        self.system = self.system.clone().sharing(other);
-        self.system.same_structure(other)
+    /// Replaces the system by the same one that shares its program with others.
+    pub(crate) fn replace_system(&mut self, system: System) {
+        self.system = system;
     }
 
     /// An evaluator of forces and accelerations at states of this model.

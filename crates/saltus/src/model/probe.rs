@@ -5,9 +5,9 @@ use saltus_hybrid::{Evaluator, Mode};
 use super::Model;
 use super::leg::Contact;
 
-/// Measures at states of one model; see [`Model::probe`].
+/// Measures accelerations and forces at states of one model, for peaks.
 #[derive(Clone, Debug)]
-pub(crate) struct Probe {
+pub struct Probe {
     evaluator: Evaluator,
     /// Places of R_j'' and of the leg forces among the nodes.
     plate: Vec<usize>,
@@ -58,7 +58,7 @@ impl Model {
 impl Probe {
     /// Readings at state `x` in `modes`. Where a switch makes a force jump, `modes` say which
     /// side is meant.
-    pub(crate) fn read(&mut self, modes: &[Mode], x: &[f64]) -> Reading<'_> {
+    pub(crate) fn reading(&mut self, modes: &[Mode], x: &[f64]) -> Reading<'_> {
         let nodes = self.evaluator.nodes(modes, x);
         let base = self.base * x[self.cos];
         let shapes = self.psi.chunks_exact(self.plate.len());
@@ -95,7 +95,7 @@ mod tests {
         // one-sided, of second order; the body is still in the air, so nothing jumps
         let second = (2.0 * w(0) - 5.0 * w(1) + 4.0 * w(2) - w(3)) / (h * h);
         let mut probe = model.probe();
-        let read = probe.read(&start.modes, &start.x);
+        let read = probe.reading(&start.modes, &start.x);
         assert!(
             (read.floor[0] / second - 1.0).abs() < 1e-3,
             "{read:?} {second}"
@@ -110,7 +110,7 @@ mod tests {
         let start = model.start(-1.5, 0.3);
         let seen = model.observe(&mut model.evaluator(), &start.modes, &start.x);
         let mut probe = model.probe();
-        let read = probe.read(&start.modes, &start.x);
+        let read = probe.reading(&start.modes, &start.x);
         assert!(read.reaction[0] > 0.0);
         assert_eq!(read.reaction, seen.prf);
         Ok(())

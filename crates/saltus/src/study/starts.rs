@@ -1,12 +1,9 @@
-//! Starts spread evenly over a box of states: Sobol's sequence with Owen's scrambling [Burley 2020].
-//!
-//! The first 2^m points of the sequence fill a box more evenly than independent ones, so small basins are met
-//! sooner and shares come out closer. Unlike multiples of an irrational number it stays even in the many
-//! dimensions of a plate with many terms, and it is integer arithmetic: the same starts on every machine.
+//! Starts of people and plate, spread evenly over a box of states.
 
 use saltus_hybrid::Point;
 
-use super::Range;
+use saltus_study::{Range, spread};
+
 use crate::model::Model;
 
 /// A box of states. The plate rests, deflected or not, and each body has the contact state that the law gives it.
@@ -23,15 +20,11 @@ pub struct Starts {
     pub plate: f64,
 }
 
-/// Length of the sequence, and its dimensions.
-const LENGTH: usize = 1 << 16;
-const DIMENSIONS: usize = 256;
-
 impl Starts {
     /// Start `number` for this model. A box that is not finite gives states that are not, whose runs end at once.
     pub fn point(&self, model: &Model, number: usize) -> Point {
         let bodies = model.setup().jumpers.len();
-        let mut coordinates = (0..).map(|dimension| coordinate(number, dimension));
+        let mut coordinates = (0..).map(|dimension| spread(number, dimension));
         let mut all = |count: usize, [from, to]: Range| -> Vec<f64> {
             let places = coordinates.by_ref().take(count);
             places.map(|part| from + (to - from) * part).collect()
@@ -42,11 +35,14 @@ impl Starts {
     }
 }
 
-/// In [0, 1). Beyond what the sequence has, another scramble of it: independent, not repeated.
-fn coordinate(number: usize, dimension: usize) -> f64 {
-    let seed = (number / LENGTH) * 0x1_0001 + dimension / DIMENSIONS;
-    let (index, dimension) = (number % LENGTH, dimension % DIMENSIONS);
-    sobol_burley::sample(index as u32, dimension as u32, seed as u32).into()
+impl saltus_study::Starts<Model> for Starts {
+    fn count(&self) -> usize {
+        self.count
+    }
+
+    fn point(&self, model: &Model, number: usize) -> Point {
+        self.point(model, number)
+    }
 }
 
 #[cfg(test)]
@@ -54,29 +50,6 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::model::{Contact, Setup};
-
-    #[test]
-    fn sixty_four_starts_meet_each_cell_of_a_chessboard_once() {
-        // the first two dimensions are a (0, 2)-sequence in base 2 [Sobol 1967]
-        let mut cells: Vec<usize> = (0..64)
-            .map(|k| [0, 1].map(|dimension| (8.0 * coordinate(k, dimension)) as usize))
-            .map(|[row, column]| 8 * row + column)
-            .collect();
-        cells.sort_unstable();
-        assert_eq!(cells, (0..64).collect::<Vec<_>>());
-    }
-
-    #[test]
-    fn the_sequence_goes_on_beyond_its_length_and_its_dimensions() {
-        assert_ne!(coordinate(7, 1), coordinate(7 + LENGTH, 1));
-        assert_ne!(coordinate(7, 1), coordinate(7, 1 + DIMENSIONS));
-        let mean = (LENGTH..LENGTH + 64)
-            .map(|k| coordinate(k, 300))
-            .sum::<f64>()
-            / 64.0;
-        // 64 points, one in each 64th: their mean is off by less than a cell
-        assert!((mean - 0.5).abs() < 1.0 / 64.0, "{mean}");
-    }
 
     #[test]
     fn starts_lie_in_the_box_and_bodies_do_not_depend_on_the_plate() {

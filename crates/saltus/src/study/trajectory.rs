@@ -4,8 +4,9 @@ use saltus_hybrid::{
     End, Evaluator, Point, Sample, Segment, Status, Step, Switch, SwitchKind, Task, integrate,
 };
 
-use super::peaks::Peaks;
-use super::{Control, StudyError};
+use saltus_study::{Control, Peaks};
+
+use super::StudyError;
 use crate::model::{Contact, EnergyBalance, Model, Observation, Probe, Section};
 
 /// A change of contact, or a tangency.
@@ -265,7 +266,7 @@ impl Task for Recorder<'_> {
         }
         let probe = &mut self.probe;
         self.peaks.step(step, |x, out| {
-            out.copy_from_slice(probe.read(step.modes, x).reaction);
+            out.copy_from_slice(probe.reading(step.modes, x).reaction);
         });
         self.out.peak_reaction.clone_from(&self.peaks.largest);
     }

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod attractors;
+mod exponents;
 mod independent;
 mod lineages;
 mod many_modes;

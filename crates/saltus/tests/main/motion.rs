@@ -12,7 +12,8 @@ use saltus::model::{
 };
 use saltus::physics::{ContactLaw, InPlaneBasis, Jumper, Mode, ModeSet};
 use saltus::study::{
-    Control, Instants, Pass, StudyError, Sweep, SweepRow, Trajectory, simulate, simulate_at, sweep,
+    Bodies, Control, Instants, Pass, StudyError, Sweep, SweepRow, Trajectory, linspace, simulate,
+    simulate_at, sweep,
 };
 
 fn with(method: Method) -> Control {
@@ -709,8 +710,8 @@ fn a_relaxing_leg_never_penetrates_the_floor() {
 
 fn small_sweep() -> Sweep {
     Sweep {
-        values: Sweep::linspace(0.1, 0.5, 9),
-        passes: vec![Pass::Up, Pass::Down, Pass::Start { z: 3.0, v: 2.0 }],
+        values: linspace(0.1, 0.5, 9),
+        passes: vec![Pass::Up, Pass::Down, Pass::Start((3.0, 2.0))],
         start: (1.0, 0.0),
         transient: 6,
         record: 5,
@@ -748,7 +749,7 @@ fn rows_do_not_depend_on_threads() {
 
 fn kept(row: &SweepRow) -> Vec<(u64, u64)> {
     let bits = |(z, v): (&f64, &f64)| (z.to_bits(), v.to_bits());
-    row.z[0].iter().zip(&row.v[0]).map(bits).collect()
+    row.z()[0].iter().zip(&row.v()[0]).map(bits).collect()
 }
 
 /// A sweep's samples by hand: `transient` periods thrown away.
@@ -765,15 +766,15 @@ fn a_sweep_is_its_trajectories_one_after_the_other() {
     let over_frequency = |ratio| Setup::dias_del_prado(0.2, ratio).model();
     type ModelAt<'a> = &'a (dyn Fn(f64) -> Result<Model, ModelError> + Sync);
     let models: [(ModelAt<'_>, Vec<f64>); 2] = [
-        (&paper_at, Sweep::linspace(0.1, 0.5, 6)),
-        (&over_frequency, Sweep::linspace(0.85, 1.15, 6)),
+        (&paper_at, linspace(0.1, 0.5, 6)),
+        (&over_frequency, linspace(0.85, 1.15, 6)),
     ];
     for (model_at, values) in models {
         let control = taylor(1e-10);
         for pass in [Pass::Up, Pass::Down] {
             let asked = Sweep {
                 values: values.clone(),
-                passes: vec![pass],
+                passes: vec![pass.clone()],
                 ..small_sweep()
             };
             let mut rows = sweep(&asked, model_at, &control).unwrap();
@@ -816,11 +817,11 @@ fn a_value_without_a_model_is_a_row_with_its_error() {
     assert_eq!(bad.len(), 3);
     for row in bad {
         assert!(matches!(row.status, Err(ModelError::Physics(_))), "{row:?}");
-        assert!(row.z.is_empty() && row.contact_ratio.is_empty());
+        assert!(row.z().is_empty() && row.contact_ratio.is_empty());
     }
     for row in &good {
         assert_eq!(row.status, Ok(Status::Completed));
-        assert_eq!(row.z[0].len(), 5);
+        assert_eq!(row.z()[0].len(), 5);
     }
     // After the gap a pass goes on from its first start.
     let next = good.iter().find(|r| r.pass == 0 && r.value > 0.3).unwrap();

@@ -4,7 +4,7 @@ use saltus::model::{Model, ModelError, PreparedPlate, Setup};
 use saltus::orbits::MotionKind;
 use saltus::physics::ContactLaw;
 use saltus::study::{
-    Control, Pass, StudyError, Sweep, SweepRow, exponents, labels, recurrence, sweep,
+    Bodies, Control, Pass, StudyError, Sweep, SweepRow, exponents, labels, recurrence, sweep,
 };
 use std::sync::{Arc, LazyLock};
 
@@ -32,7 +32,7 @@ fn control(threads: usize) -> Control {
 fn rows(values: &[f64], transient: u64) -> Vec<SweepRow> {
     let question = Sweep {
         values: values.to_vec(),
-        passes: vec![Pass::Start { z: 3.0, v: 2.0 }],
+        passes: vec![Pass::Start((3.0, 2.0))],
         start: (3.0, 2.0),
         transient,
         record: 8,
@@ -113,7 +113,7 @@ fn models_of_several_programs_keep_their_order() {
     let alone = |value: f64| {
         let question = Sweep {
             values: vec![value],
-            passes: vec![Pass::Start { z: 3.0, v: 2.0 }],
+            passes: vec![Pass::Start((3.0, 2.0))],
             start: (3.0, 2.0),
             transient: 50,
             record: 8,
@@ -134,10 +134,7 @@ fn models_of_several_programs_keep_their_order() {
 #[test]
 fn label_and_exponent_are_of_what_follows_a_chaotic_transient() {
     // at 0.17 chaos dies out slowly towards an 8-cycle (`lineages.rs`); it outlives some rows
-    let start = |i: u32| Pass::Start {
-        z: f64::from(i),
-        v: 2.0,
-    };
+    let start = |i: u32| Pass::Start((f64::from(i), 2.0));
     let question = Sweep {
         values: vec![0.17],
         passes: (0..16).map(start).collect(),
@@ -152,7 +149,7 @@ fn label_and_exponent_are_of_what_follows_a_chaotic_transient() {
         assert_eq!(label.kind, MotionKind::Periodic(8));
         assert!(exponents[0].per_iterate < 0.0, "{label:?} {exponents:?}");
     }
-    let late = |row: &&SweepRow| recurrence(&row.z[0], &row.v[0], 1e-2).is_none();
+    let late = |row: &&SweepRow| recurrence(&row.z()[0], &row.v()[0], 1e-2).is_none();
     assert!(rows.iter().filter(late).count() > 0);
 }
 

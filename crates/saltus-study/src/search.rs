@@ -14,7 +14,7 @@ pub struct Search {
     /// say what it is. 0 leaves it at [`MotionKind::NotPeriodic`](saltus_orbits::MotionKind::NotPeriodic).
     pub exponent: u64,
     /// Forcing periods for which a motion that was found to be chaotic is run on, to see whether it stays so. A
-    /// transient that outlives all of these is called chaotic; [`Found::periods`](super::Found::periods) says over how
+    /// transient that outlives all of these is called chaotic; [`Found::periods`](crate::Found::periods) says over how
     /// many it was seen.
     pub watch: u64,
     /// Whether Newton's method confirms every cycle, and not only those of which the samples leave a doubt: for

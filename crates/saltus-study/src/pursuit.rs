@@ -9,12 +9,12 @@
 
 use saltus_hybrid::Point;
 
-use super::approach::approach;
-use super::attractor::Found;
-use super::classify::{self, Doubtful};
-use super::ensemble::{Control, StudyError};
-use super::search::Search;
-use crate::model::{Model, ModelError};
+use crate::approach::approach;
+use crate::attractor::Found;
+use crate::classify::{self, Doubtful};
+use crate::ensemble::{Control, StudyError};
+use crate::search::Search;
+use crate::subject::Subject;
 
 /// The attractor that each of the `starts` leads to, into `sink`, in no particular order.
 ///
@@ -24,16 +24,17 @@ use crate::model::{Model, ModelError};
 ///
 /// # Errors
 /// [`StudyError::Integrate`] for options out of range or when stopped, and whatever `sink` refuses with.
-pub fn attractors<F, E>(
+pub fn attractors<S, F, E>(
     starts: impl IntoIterator<Item = usize, IntoIter: Send>,
     start_at: F,
     search: &Search,
     control: &Control,
-    mut sink: impl FnMut(usize, Found) -> Result<(), E> + Send,
+    mut sink: impl FnMut(usize, Found<S::NoModel>) -> Result<(), E> + Send,
 ) -> Result<(), E>
 where
-    F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
-    E: From<StudyError> + Send,
+    F: Fn(usize) -> Result<(S, Point), S::NoModel> + Sync,
+    E: From<StudyError<S::NoModel>> + Send,
+    S: Subject,
 {
     let mut doubtful = Vec::new();
     approach(starts, &start_at, search, control, |number, found| {
@@ -44,33 +45,31 @@ where
         sink(number, found)
     })?;
     let mut chaotic = Vec::new();
-    classify::settle(
-        doubtful,
-        &start_at,
-        search,
-        control,
-        &mut |number, found: Found| {
-            if search.watch > 0 && found.is_chaotic() {
-                chaotic.push((number, found));
-                return Ok(());
-            }
-            sink(number, found)
-        },
-    )?;
+    classify::settle(doubtful, &start_at, search, control, &mut |number,
+                                                                 found: Found<
+        S::NoModel,
+    >| {
+        if search.watch > 0 && found.is_chaotic() {
+            chaotic.push((number, found));
+            return Ok(());
+        }
+        sink(number, found)
+    })?;
     watch(chaotic, &start_at, search, control, &mut sink)
 }
 
 /// Runs chaotic motions on, into `sink`: as what they become, or as chaotic over [`Search::watch`] periods more.
-fn watch<F, E>(
-    mut chaotic: Vec<(usize, Found)>,
+fn watch<S, F, E>(
+    mut chaotic: Vec<(usize, Found<S::NoModel>)>,
     start_at: &F,
     search: &Search,
     control: &Control,
-    sink: &mut (impl FnMut(usize, Found) -> Result<(), E> + Send),
+    sink: &mut (impl FnMut(usize, Found<S::NoModel>) -> Result<(), E> + Send),
 ) -> Result<(), E>
 where
-    F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
-    E: From<StudyError> + Send,
+    F: Fn(usize) -> Result<(S, Point), S::NoModel> + Sync,
+    E: From<StudyError<S::NoModel>> + Send,
+    S: Subject,
 {
     // In an order of their own, whatever threads found them.
     chaotic.sort_by_key(|one| one.0);

@@ -7,16 +7,16 @@
 use saltus_orbits::MotionKind;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::Range;
-use super::attractor::Attractor;
-use super::census::Row;
-use super::matching::{Links, Node, Way, matches};
+use crate::Range;
+use crate::attractor::Attractor;
+use crate::census::Row;
+use crate::matching::{Links, Node, Way, matches};
 
 /// The attractors along a parameter.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ContinuedAttractors {
+pub struct ContinuedAttractors<E> {
     /// One per value, in their order.
-    pub rows: Vec<Row>,
+    pub rows: Vec<Row<E>>,
     /// Each attractor by its number.
     pub identities: Vec<AttractorRange>,
     /// Loops of hysteresis, in the order of their first value.
@@ -68,9 +68,9 @@ pub struct Hysteresis {
     pub jump_down: Option<Range>,
 }
 
-impl ContinuedAttractors {
+impl<E> ContinuedAttractors<E> {
     /// Numbers the attractors of `rows`, by their first value and then by their share there.
-    pub(super) fn new(mut rows: Vec<Row>, links: &Links, unfinished: usize) -> Self {
+    pub(crate) fn new(mut rows: Vec<Row<E>>, links: &Links, unfinished: usize) -> Self {
         let previous = matches(&rows, links);
         let mut paths: Vec<Vec<Node>> = Vec::new();
         let mut identity_of: BTreeMap<Node, usize> = BTreeMap::new();
@@ -118,7 +118,7 @@ impl ContinuedAttractors {
     }
 
     /// The number of the attractor that `motion`, found at one of the values, is on, by the same test that tells
-    /// motions apart in a [`AttractorCatalogue`](super::AttractorCatalogue): so that pictures of basins at several values share their
+    /// motions apart in a [`AttractorCatalogue`](crate::AttractorCatalogue): so that pictures of basins at several values share their
     /// colours. `None` if it was not met there, or nothing was sought there.
     pub fn identity(&self, value: f64, motion: &Attractor) -> Option<usize> {
         let row = self.rows.iter().find(|row| row.value == value)?;
@@ -129,7 +129,11 @@ impl ContinuedAttractors {
 }
 
 /// A loop for each pair of which one jumps to the other, as far as both exist.
-fn loops(rows: &[Row], identities: &[AttractorRange], paths: &[Vec<Node>]) -> Vec<Hysteresis> {
+fn loops<E>(
+    rows: &[Row<E>],
+    identities: &[AttractorRange],
+    paths: &[Vec<Node>],
+) -> Vec<Hysteresis> {
     let jump = |turn: Option<RangeEnd>, to: usize| turn.filter(|turn| turn.to == Some(to));
     let pairs = identities
         .iter()
@@ -169,12 +173,12 @@ fn loops(rows: &[Row], identities: &[AttractorRange], paths: &[Vec<Node>]) -> Ve
 
 #[cfg(test)]
 mod tests {
-    use super::super::attractor::Arrival;
-    use super::super::basins::AttractorCatalogue;
-    use super::super::census::{AttractorCensus, CountedAttractor};
-    use super::super::fraction::BasinFraction;
     use super::*;
-    use saltus_hybrid::Point;
+    use crate::attractor::Arrival;
+    use crate::basins::AttractorCatalogue;
+    use crate::census::{AttractorCensus, CountedAttractor};
+    use crate::fraction::BasinFraction;
+    use saltus_hybrid::{BuildError, Point};
 
     /// An attractor with these heights, at rest.
     fn counted(kind: MotionKind, heights: &[f64]) -> CountedAttractor {
@@ -183,11 +187,9 @@ mod tests {
         let motion = Attractor {
             kind,
             contact_ratio: vec![0.5],
-            peak_reaction: vec![3.0],
-            peak_acceleration: 2.0,
-            z: vec![heights.to_vec()],
-            v: vec![vec![0.0; heights.len()]],
-            ranges: vec![([low, high], [low, high])],
+            peaks: vec![2.0, 3.0],
+            section: vec![heights.to_vec(), vec![0.0; heights.len()]],
+            ranges: vec![[low, high], [low, high]],
             rest: 0.0,
             multiplier: None,
             exponent: None,
@@ -204,7 +206,7 @@ mod tests {
                     modes: vec![],
                     x: vec![],
                 },
-                section: vec![heights.iter().map(|&z| [z, 0.0]).collect()],
+                section: vec![heights.to_vec(), vec![0.0; heights.len()]],
             },
             survival: None,
         }
@@ -215,7 +217,7 @@ mod tests {
     }
 
     /// Rows at 0, 1, ... with these attractors.
-    fn rows(all: Vec<Vec<CountedAttractor>>) -> Vec<Row> {
+    fn rows(all: Vec<Vec<CountedAttractor>>) -> Vec<Row<BuildError>> {
         let row = |(at, attractors)| Row {
             value: at as f64,
             census: Ok(AttractorCensus {
@@ -236,8 +238,8 @@ mod tests {
             .collect()
     }
 
-    fn numbers(found: &ContinuedAttractors) -> Vec<Vec<usize>> {
-        let of = |row: &Row| {
+    fn numbers(found: &ContinuedAttractors<BuildError>) -> Vec<Vec<usize>> {
+        let of = |row: &Row<BuildError>| {
             row.attractors()
                 .iter()
                 .map(|counted| counted.identity)
@@ -336,11 +338,7 @@ mod tests {
         // 0 is everywhere but undecided at 2, 1 is at 1 only
         let (a, b) = (cycle(&[0.0]), cycle(&[5.0]));
         let mut rows = rows(vec![vec![a.clone()], vec![a.clone(), b], vec![], vec![a]]);
-        let none = crate::physics::PhysicsError::Algebra {
-            what: "a toy",
-            reason: "it has none".to_owned(),
-        };
-        rows[2].census = Err(none.into());
+        rows[2].census = Err(BuildError::Period(0.0));
         let up = [((0, 0), (1, 0)), ((1, 0), (3, 0)), ((1, 1), (3, 0))];
         let down = [((3, 0), (1, 0)), ((1, 0), (0, 0)), ((1, 1), (0, 0))];
         let found = ContinuedAttractors::new(rows, &links(&up, &down), 0);

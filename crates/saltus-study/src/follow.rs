@@ -18,30 +18,31 @@ use saltus_orbits::MotionKind;
 use std::collections::BTreeMap;
 use std::sync::atomic::Ordering;
 
-use super::census::{AttractorCensus, Row, Tally};
-use super::lineages::ContinuedAttractors;
-use super::matching::{Links, Node, Way};
-use super::survival::Survival;
-use super::{Control, Found, Search, Starts, StudyError, attractors};
-use crate::model::{Model, ModelError};
+use crate::census::{AttractorCensus, Row, Tally};
+use crate::lineages::ContinuedAttractors;
+use crate::matching::{Links, Node, Way};
+use crate::subject::{Starts, Subject};
+use crate::survival::Survival;
+use crate::{Control, Found, Outcome, Search, StudyError, attractors};
 use saltus_hybrid::{IntegrateError, Point};
 
 /// The attractors of `model`, as the starts lead to them.
 ///
 /// # Errors
-/// [`StudyError::NobodyMoves`] for a plate without people, [`StudyError::Integrate`] for options out of range
+/// [`StudyError::NoSection`] for a plate without people, [`StudyError::Integrate`] for options out of range
 /// or when stopped.
-pub fn census(
-    model: &Model,
-    starts: &Starts,
+pub fn census<S: Subject>(
+    model: &S,
+    starts: &impl Starts<S>,
     search: &Search,
     control: &Control,
-) -> Result<AttractorCensus, StudyError> {
+) -> Outcome<AttractorCensus<S::NoModel>, S> {
     let found = follow(&[0.0], |_| Ok(model.clone()), starts, search, control)?;
     let mut rows = found.rows.into_iter().map(|row| row.census);
-    Ok(rows
+    let census = rows
         .next()
-        .unwrap_or_else(|| Ok(AttractorCensus::default()))?)
+        .unwrap_or_else(|| Ok(AttractorCensus::default()));
+    census.map_err(StudyError::Model)
 }
 
 /// The attractors at each of `values` (ascending), matched from value to value.
@@ -51,15 +52,16 @@ pub fn census(
 ///
 /// # Errors
 /// As [`census`].
-pub fn follow<F>(
+pub fn follow<S, F>(
     values: &[f64],
     model_at: F,
-    starts: &Starts,
+    starts: &impl Starts<S>,
     search: &Search,
     control: &Control,
-) -> Result<ContinuedAttractors, StudyError>
+) -> Outcome<ContinuedAttractors<S::NoModel>, S>
 where
-    F: Fn(f64) -> Result<Model, ModelError>,
+    S: Subject,
+    F: Fn(f64) -> Result<S, S::NoModel>,
 {
     let mut places = Vec::with_capacity(values.len());
     for &value in values {
@@ -67,10 +69,10 @@ where
         if control.stop.load(Ordering::Relaxed) {
             return Err(IntegrateError::Interrupted.into());
         }
-        let stable = |model: Model| model.check_step(&control.options).map(|()| model);
+        let stable = |model: S| model.check(&control.options).map(|()| model);
         let model = model_at(value).and_then(stable);
-        if model.as_ref().is_ok_and(|m| m.setup().jumpers.is_empty()) {
-            return Err(StudyError::NobodyMoves);
+        if model.as_ref().is_ok_and(|m| m.channels() == 0) {
+            return Err(StudyError::NoSection);
         }
         let tally = Tally::default();
         places.push(Place {
@@ -104,14 +106,14 @@ const WATCH: u64 = 12_000;
 const APART: f64 = 1e-6;
 
 /// One value.
-struct Place {
+struct Place<S: Subject> {
     value: f64,
-    model: Result<Model, ModelError>,
-    tally: Tally,
+    model: Result<S, S::NoModel>,
+    tally: Tally<S::NoModel>,
 }
 
-struct Journey<'a> {
-    places: Vec<Place>,
+struct Journey<'a, S: Subject> {
+    places: Vec<Place<S>>,
     /// Ends of transients that looked like attractors; without cycles.
     became: BTreeMap<Node, Node>,
     links: Links,
@@ -136,23 +138,23 @@ struct Errand {
     tries: usize,
 }
 
-impl Journey<'_> {
+impl<S: Subject> Journey<'_, S> {
     /// Runs all starts at all values, those that stay undecided with patience.
-    fn count(&mut self, starts: &Starts) -> Result<(), StudyError> {
+    fn count(&mut self, starts: &impl Starts<S>) -> Outcome<(), S> {
         let at: Vec<usize> = (0..self.places.len())
             .filter(|&at| self.places[at].model.is_ok())
             .collect();
-        let model_of = |number: usize| self.places[at[number / starts.count]].model.clone();
+        let model_of = |number: usize| self.places[at[number / starts.count()]].model.clone();
         let start_at = |number: usize| {
             let model = model_of(number)?;
-            let point = starts.point(&model, number % starts.count);
+            let point = starts.point(&model, number % starts.count());
             Ok((model, point))
         };
         let search = Search {
             watch: 0,
             ..*self.search
         };
-        let mut found = self.run(&search, at.len() * starts.count, start_at)?;
+        let mut found = self.run(&search, at.len() * starts.count(), start_at)?;
         for _ in 1..PATIENCE {
             let points = found.iter().enumerate();
             let open: Vec<(usize, Point)> = points
@@ -168,7 +170,7 @@ impl Journey<'_> {
             }
         }
         for (number, found) in found.into_iter().enumerate() {
-            self.places[at[number / starts.count]].tally.count(found);
+            self.places[at[number / starts.count()]].tally.count(found);
         }
         Ok(())
     }
@@ -178,12 +180,12 @@ impl Journey<'_> {
         &self,
         search: &Search,
         count: usize,
-        start_at: impl Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
-    ) -> Result<Vec<Found>, StudyError> {
-        let mut all: Vec<Option<Found>> = vec![None; count];
+        start_at: impl Fn(usize) -> Result<(S, Point), S::NoModel> + Sync,
+    ) -> Outcome<Vec<Found<S::NoModel>>, S> {
+        let mut all: Vec<Option<Found<S::NoModel>>> = vec![None; count];
         let keep = |number: usize, found| {
             all[number] = Some(found);
-            Ok::<(), StudyError>(())
+            Ok::<(), StudyError<S::NoModel>>(())
         };
         attractors(0..count, start_at, search, self.control, keep)?;
         Ok(all.into_iter().flatten().collect())
@@ -191,9 +193,10 @@ impl Journey<'_> {
 
     /// Carries every attractor both ways and gives the number of motions that were still on their way after rounds
     /// enough for twice the length of the range; a model has few attractors, so it ends long before.
-    fn carry_all(&mut self) -> Result<usize, StudyError> {
-        let known =
-            |(at, place): (usize, &Place)| (0..place.tally.len()).map(move |number| (at, number));
+    fn carry_all(&mut self) -> Outcome<usize, S> {
+        let known = |(at, place): (usize, &Place<S>)| {
+            (0..place.tally.len()).map(move |number| (at, number))
+        };
         let nodes: Vec<Node> = self.places.iter().enumerate().flat_map(known).collect();
         let mut errands: Vec<Errand> = Vec::new();
         for node in nodes {
@@ -226,7 +229,7 @@ impl Journey<'_> {
     }
 
     /// Watches all chaos that was not watched yet, and gives what is to be done next.
-    fn watch(&mut self) -> Result<Vec<Errand>, StudyError> {
+    fn watch(&mut self) -> Outcome<Vec<Errand>, S> {
         let nodes = std::mem::take(&mut self.unwatched);
         let search = Search {
             transient: WATCH,
@@ -252,13 +255,13 @@ impl Journey<'_> {
     }
 
     /// Notes what became of the motions watched in the chaos at a node.
-    fn survive(&mut self, node: Node, watched: &[Found]) -> Vec<Errand> {
+    fn survive(&mut self, node: Node, watched: &[Found<S::NoModel>]) -> Vec<Errand> {
         let (at, chaos) = node;
-        let is_cycle = |found: &&Found| {
+        let is_cycle = |found: &&Found<S::NoModel>| {
             let kind = found.attractor.as_ref().map(|motion| motion.kind);
             matches!(kind, Ok(MotionKind::Periodic(_)))
         };
-        let ended: Vec<&Found> = watched.iter().filter(is_cycle).collect();
+        let ended: Vec<&Found<S::NoModel>> = watched.iter().filter(is_cycle).collect();
         let survival = Survival {
             motions: watched.len() as u32,
             ended: ended.len() as u32,
@@ -328,10 +331,13 @@ impl Journey<'_> {
 
     /// To the next value with a model of the same make, if there is one.
     fn further(&self, errand: Errand) -> Option<Errand> {
-        let layout = |at: usize| Some(self.places[at].model.as_ref().ok()?.layout);
         let at = errand.to;
+        let here = self.places[at].model.as_ref().ok()?;
         let mut beyond = errand.way?.beyond(at, self.places.len());
-        let to = beyond.find(|&to| layout(to) == layout(at))?;
+        let to = beyond.find(|&to| {
+            let there = self.places[to].model.as_ref();
+            there.is_ok_and(|there| there.is_like(here))
+        })?;
         Some(Errand {
             at,
             to,
@@ -341,7 +347,7 @@ impl Journey<'_> {
     }
 
     /// Notes where an errand has led, and what is to be done next.
-    fn arrive(&mut self, mut errand: Errand, found: Found) -> Vec<Errand> {
+    fn arrive(&mut self, mut errand: Errand, found: Found<S::NoModel>) -> Vec<Errand> {
         let tally = &mut self.places[errand.to].tally;
         let known = tally.len();
         let ended_early = found.arrival.is_none();
@@ -385,7 +391,7 @@ impl Journey<'_> {
     }
 
     /// Everything in the order of the shares.
-    fn lineages(mut self, unfinished: usize) -> ContinuedAttractors {
+    fn lineages(mut self, unfinished: usize) -> ContinuedAttractors<S::NoModel> {
         let (mut rows, mut ranks) = (Vec::new(), Vec::new());
         let places = std::mem::take(&mut self.places);
         for (at, place) in places.into_iter().enumerate() {

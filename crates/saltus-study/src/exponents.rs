@@ -3,9 +3,9 @@
 use saltus_hybrid::{Point, Sample, Status};
 use saltus_orbits::{Ascent, Exponent, MapPoint, Orbit, Spectrum, Start, climb, settled};
 
-use super::orbits::stroboscopic;
-use super::{Control, StudyError, settle};
-use crate::model::{Model, ModelError};
+use crate::orbits::stroboscopic;
+use crate::subject::Subject;
+use crate::{Control, Outcome, settle};
 
 /// Periods in which the columns turn into their directions, before anything is recorded. Plate modes lose
 /// a tenth of their amplitude per period, so what is left of a wrong direction is 1e-5.
@@ -16,7 +16,7 @@ const ALIGNMENT: u64 = 100;
 pub struct LyapunovRun {
     /// The record of growth.
     pub spectrum: Spectrum,
-    /// Time integral of the divergence over each recorded period: see [`Model::divergence`].
+    /// Time integral of the divergence over each recorded period: see [`Subject::divergence`].
     pub divergences: Vec<f64>,
     /// Status at the end; the record goes as far as the run.
     pub status: Status,
@@ -30,13 +30,13 @@ pub struct LyapunovRun {
 /// already. Models of the same program share the lanes.
 ///
 /// # Errors
-/// [`StudyError`] for options out of range, more columns than states, or when stopped.
-pub fn lyapunov_of_states(
-    starts: &[(Model, Point)],
+/// [`StudyError`](crate::StudyError) for options out of range, more columns than states, or when stopped.
+pub fn lyapunov_of_states<S: Subject>(
+    starts: &[(S, Point)],
     columns: usize,
     periods: u64,
     control: &Control,
-) -> Result<Vec<LyapunovRun>, StudyError> {
+) -> Outcome<Vec<LyapunovRun>, S> {
     let mut divergences = vec![Vec::new(); starts.len()];
     let watched = starts.iter().zip(&mut divergences);
     let climbs = watched.map(|((model, point), divergences)| Start {
@@ -100,12 +100,12 @@ impl Measurement {
 ///
 /// # Errors
 /// As [`lyapunov_of_states`].
-pub fn lyapunov(
-    model: &Model,
+pub fn lyapunov<S: Subject>(
+    model: &S,
     start: &Point,
     how: &Measurement,
     control: &Control,
-) -> Result<LyapunovRun, StudyError> {
+) -> Outcome<LyapunovRun, S> {
     let (mut starts, mut at) = (Vec::new(), start.clone());
     for replica in 0..how.replicas.max(1) {
         // The columns take as long to turn into their directions in each piece, so records follow each other.
@@ -149,12 +149,8 @@ pub fn lyapunov(
 }
 
 /// The cycle that a motion is on at a point.
-fn cycle(model: &Model, point: &Point, control: &Control) -> Option<Orbit> {
-    let family = stroboscopic(
-        model,
-        |_: &[f64]| Ok::<_, ModelError>(model.clone()),
-        control,
-    );
+fn cycle<S: Subject>(model: &S, point: &Point, control: &Control) -> Option<Orbit> {
+    let family = stroboscopic(model, |_: &[f64]| Ok(model.clone()), control);
     let place = MapPoint {
         modes: point.modes.clone(),
         x: point.x[..model.free_states()].to_vec(),
@@ -196,55 +192,5 @@ impl LyapunovRun {
     /// The largest exponent.
     pub fn largest(&self) -> Option<Exponent> {
         self.exponents().into_iter().next()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::model::Setup;
-    use crate::physics::ContactLaw;
-
-    fn measured(setup: &Setup, exponents: usize, periods: u64) -> LyapunovRun {
-        let model = setup.model().expect("the paper's case");
-        let how = Measurement {
-            exponents,
-            transient: 300,
-            periods,
-            replicas: 8,
-        };
-        lyapunov(&model, &model.start(3.0, 2.0), &how, &Control::default()).expect("runs")
-    }
-
-    #[test]
-    fn a_periodic_orbit_has_a_negative_exponent_and_chaos_a_positive_one() {
-        // zeta_h 0.35 at 0.9 is 1T (DP Fig. 3b), 0.12 at 1.0 is chaotic (DP Fig. 2b).
-        let periodic = measured(&Setup::dias_del_prado(0.35, 0.9), 1, 100);
-        let chaotic = measured(&Setup::dias_del_prado(0.12, 1.0), 1, 400);
-        let (periodic, chaotic) = (periodic.largest(), chaotic.largest());
-        assert!(periodic.expect("recorded").per_iterate < -0.05);
-        let chaotic = chaotic.expect("recorded");
-        assert!(
-            chaotic.per_iterate > 5.0 * chaotic.standard_error,
-            "{chaotic:?}"
-        );
-    }
-
-    #[test]
-    fn the_sum_of_all_exponents_is_the_mean_divergence() {
-        // By Liouville's formula, period by period: no statistics are involved.
-        for contact in [ContactLaw::ReactionForce, ContactLaw::Gap] {
-            let setup = Setup {
-                contact,
-                ..Setup::dias_del_prado(0.12, 1.0)
-            };
-            let all = measured(&setup, 10, 60);
-            let sum = all.spectrum.sum().per_iterate;
-            assert!(
-                (sum - all.divergence()).abs() < 1e-7,
-                "{sum} {}",
-                all.divergence()
-            );
-        }
     }
 }

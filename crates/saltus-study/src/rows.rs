@@ -7,10 +7,10 @@
 use saltus_hybrid::{Point, Status};
 use saltus_orbits::{Exponent, MotionKind};
 
-use super::pursuit::attractors;
-use super::search::Search;
-use super::{Control, StudyError, SweepRow, lyapunov_of_states};
-use crate::model::{Model, ModelError};
+use crate::pursuit::attractors;
+use crate::search::Search;
+use crate::subject::Subject;
+use crate::{Control, Outcome, StudyError, SweepRow, lyapunov_of_states};
 
 /// Name of the motion of a row in the long run.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +19,7 @@ pub struct Label {
     pub kind: MotionKind,
     /// The largest Lyapunov exponent (per forcing period), where it took one to say what the motion is.
     pub exponent: Option<Exponent>,
-    /// Confidence of the test behind the name, as in [`Attractor`](super::Attractor); `None` for a cycle known by its
+    /// Confidence of the test behind the name, as in [`Attractor`](crate::Attractor); `None` for a cycle known by its
     /// returns.
     pub confidence: Option<f64>,
     /// Last state, to go on from; `None` if going on from the row ended early.
@@ -38,13 +38,14 @@ const TOGETHER: usize = 256;
 ///
 /// # Errors
 /// [`StudyError::Integrate`] for options out of range or when stopped.
-pub fn labels<F>(
-    rows: &[SweepRow],
+pub fn labels<S, F>(
+    rows: &[SweepRow<S::NoModel>],
     model_at: F,
     control: &Control,
-) -> Result<Vec<Option<Label>>, StudyError>
+) -> Outcome<Vec<Option<Label>>, S>
 where
-    F: Fn(f64) -> Result<Model, ModelError> + Sync,
+    S: Subject,
+    F: Fn(f64) -> Result<S, S::NoModel> + Sync,
 {
     let ended: Vec<(usize, f64, &Point)> = rows
         .iter()
@@ -75,7 +76,7 @@ where
                 end: found.arrival.map(|arrival| arrival.point),
             };
             labels[ended[number].0] = Some(label);
-            Ok::<(), StudyError>(())
+            Ok::<(), StudyError<S::NoModel>>(())
         },
     )?;
     Ok(labels)
@@ -86,26 +87,30 @@ where
 ///
 /// # Errors
 /// As [`lyapunov_of_states`].
-pub fn exponents<F>(
-    rows: &[SweepRow],
+pub fn exponents<S, F>(
+    rows: &[SweepRow<S::NoModel>],
     labels: &[Option<Label>],
     model_at: F,
     columns: usize,
     periods: u64,
     control: &Control,
-) -> Result<Vec<Vec<Exponent>>, StudyError>
+) -> Outcome<Vec<Vec<Exponent>>, S>
 where
-    F: Fn(f64) -> Result<Model, ModelError> + Sync,
+    S: Subject,
+    F: Fn(f64) -> Result<S, S::NoModel> + Sync,
 {
     let labelled: Vec<(usize, f64, &Point)> = (rows.iter().zip(labels).enumerate())
         .filter_map(|(index, (row, label))| Some((index, row.value, label.as_ref()?.end.as_ref()?)))
         .collect();
     let mut exponents = vec![Vec::new(); rows.len()];
     for some in labelled.chunks(TOGETHER) {
-        let start = |&(_, value, point): &(usize, f64, &Point)| {
-            Ok::<_, ModelError>((model_at(value)?, point.clone()))
-        };
-        let starts = some.iter().map(start).collect::<Result<Vec<_>, _>>()?;
+        let start =
+            |&(_, value, point): &(usize, f64, &Point)| Ok((model_at(value)?, point.clone()));
+        let starts = some
+            .iter()
+            .map(start)
+            .collect::<Result<Vec<_>, _>>()
+            .map_err(StudyError::Model)?;
         let found = lyapunov_of_states(&starts, columns, periods, control)?;
         for ((index, ..), growth) in some.iter().zip(found) {
             if growth.status == Status::Completed {

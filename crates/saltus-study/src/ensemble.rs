@@ -3,10 +3,10 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use saltus_hybrid::{IntegrateError, Options};
-use saltus_orbits::ExponentError;
+use saltus_hybrid::{BuildError, IntegrateError, Options};
+use saltus_orbits::{ClimbError, ExponentError};
 
-use crate::model::ModelError;
+use crate::subject::Subject;
 
 /// Settings of a run, beside the question it asks.
 #[derive(Clone, Debug, Default)]
@@ -22,48 +22,47 @@ pub struct Control {
 }
 
 impl Control {
-    pub(crate) fn count_period(&self) {
+    /// Counts a period as done.
+    pub fn count_period(&self) {
         self.done.fetch_add(1, Ordering::Relaxed);
     }
 }
 
-/// Errors of a study that has no answer.
+/// Answer of a study of subjects `S`.
+pub type Outcome<T, S> = Result<T, StudyError<<S as Subject>::NoModel>>;
+
+/// Errors of a study that has no answer; `E` is the reason why there is no system.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum StudyError {
+pub enum StudyError<E: std::error::Error + 'static> {
     /// No model.
     #[error(transparent)]
-    Model(#[from] ModelError),
+    Model(E),
     /// No integration.
     #[error(transparent)]
     Integrate(#[from] IntegrateError),
     /// No exponents.
     #[error(transparent)]
     Exponents(#[from] ExponentError),
-    /// Attractors of an empty plate.
-    #[error(
-        "attractors are told apart by how people move, and nobody is on the plate; it needs a jumper"
-    )]
-    NobodyMoves,
+    /// No tangent flow.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// Attractors without anything by which they are told apart.
+    #[error("attractors are told apart by the channels of a section, and this one has none")]
+    NoSection,
 }
 
-impl From<saltus_orbits::ClimbError> for StudyError {
-    fn from(error: saltus_orbits::ClimbError) -> Self {
+impl<E: std::error::Error + 'static> From<ClimbError> for StudyError<E> {
+    fn from(error: ClimbError) -> Self {
         match error {
-            saltus_orbits::ClimbError::Exponent(error) => error.into(),
-            saltus_orbits::ClimbError::Build(error) => ModelError::from(error).into(),
-            saltus_orbits::ClimbError::Integrate(error) => error.into(),
+            ClimbError::Exponent(error) => error.into(),
+            ClimbError::Build(error) => error.into(),
+            ClimbError::Integrate(error) => error.into(),
         }
     }
 }
 
-impl From<crate::physics::PhysicsError> for StudyError {
-    fn from(error: crate::physics::PhysicsError) -> Self {
-        Self::Model(error.into())
-    }
-}
-
-impl StudyError {
+impl<E: std::error::Error + 'static> StudyError<E> {
     /// Whether the study was stopped from outside.
     pub fn is_interrupt(&self) -> bool {
         matches!(self, Self::Integrate(IntegrateError::Interrupted))
@@ -71,13 +70,17 @@ impl StudyError {
 }
 
 /// An error of the engine or of the sink.
-pub(super) enum Refused<E> {
+pub(crate) enum Refused<E> {
     Engine(IntegrateError),
     Sink(E),
 }
 
-impl<E: From<StudyError>> Refused<E> {
-    pub(super) fn into_error(self) -> E {
+impl<E> Refused<E> {
+    pub(crate) fn into_error<N>(self) -> E
+    where
+        N: std::error::Error + 'static,
+        E: From<StudyError<N>>,
+    {
         match self {
             Self::Engine(error) => StudyError::from(error).into(),
             Self::Sink(error) => error,

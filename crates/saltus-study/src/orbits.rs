@@ -1,17 +1,13 @@
-//! Periodic orbits of people on a plate: the maps whose fixed points they are, one orbit near a long-term
-//! motion, and what it does to floor and people.
-
-use std::f64::consts::TAU;
+//! Periodic orbits of a subject: the maps whose fixed points they are, and one orbit near a long-term motion.
 
 use saltus_hybrid::{Method, Options, Point, Segment, Status, System, record};
 use saltus_orbits::{
     MAX_PERIOD, MapPoint, NewtonOptions, NoImage, NotFound, Orbit, Stroboscopic, find_orbit,
 };
 
-use super::settle::settle;
-use super::trajectory::{History, TrajectorySwitch, simulate};
-use super::{Control, StudyError};
-use crate::model::{Contact, Model, ModelError, Section};
+use crate::settle::settle;
+use crate::subject::Subject;
+use crate::{Control, StudyError};
 
 /// Method by which orbits are integrated, whatever the study says of other motions: 1e-13 leaves residuals of
 /// 1e-12, and special points to some 1e-10.
@@ -20,21 +16,19 @@ pub const ORBIT_METHOD: Method = Method::Taylor {
     order: 20,
 };
 
-/// Points per period of the way around.
-const POINTS: u32 = 2000;
-
 /// A motion that comes back nearer than this, in the units of the model, may be near a cycle.
 const NEAR: f64 = 0.02;
 
 /// The stroboscopic maps of the models that `model_at` makes of parameter values. All of them have the
 /// states of `like`. Raise [`Control::stop`] to end what asks them.
-pub fn stroboscopic<'a, F>(
-    like: &Model,
+pub fn stroboscopic<'a, S, F>(
+    like: &S,
     model_at: F,
     control: &'a Control,
 ) -> Stroboscopic<'a, impl Fn(&[f64]) -> Result<System, String> + Sync + 'a>
 where
-    F: Fn(&[f64]) -> Result<Model, ModelError> + Sync + 'a,
+    S: Subject + 'a,
+    F: Fn(&[f64]) -> Result<S, S::NoModel> + Sync + 'a,
 {
     let options = Options {
         method: ORBIT_METHOD,
@@ -63,10 +57,10 @@ pub struct OrbitSearch {
 /// Reasons why no orbit was found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum OrbitError {
+pub enum OrbitError<E: std::error::Error + 'static> {
     /// No model, or no integration.
     #[error(transparent)]
-    Study(#[from] StudyError),
+    Study(StudyError<E>),
     /// The motion before Newton's method ended early.
     #[error("the motion before Newton's method ended early: {0}")]
     Ended(Status),
@@ -89,7 +83,13 @@ pub enum OrbitError {
     Newton(#[from] NotFound),
 }
 
-impl OrbitError {
+impl<E: std::error::Error + 'static> From<StudyError<E>> for OrbitError<E> {
+    fn from(error: StudyError<E>) -> Self {
+        Self::Study(error)
+    }
+}
+
+impl<E: std::error::Error + 'static> OrbitError<E> {
     /// Whether the search was stopped from outside.
     pub fn is_interrupt(&self) -> bool {
         match self {
@@ -104,12 +104,12 @@ impl OrbitError {
 ///
 /// # Errors
 /// [`OrbitError`] says how far the search came.
-pub fn orbit(
-    model: &Model,
+pub fn orbit<S: Subject>(
+    model: &S,
     start: &Point,
     search: &OrbitSearch,
     control: &Control,
-) -> Result<Orbit, OrbitError> {
+) -> Result<Orbit, OrbitError<S::NoModel>> {
     let family = stroboscopic(model, |_: &[f64]| Ok(model.clone()), control);
     orbit_of(&family, model, &[], start, search, control)
 }
@@ -118,14 +118,14 @@ pub fn orbit(
 ///
 /// # Errors
 /// As [`orbit`].
-pub fn orbit_of<F>(
+pub fn orbit_of<S: Subject, F>(
     family: &Stroboscopic<'_, F>,
-    model: &Model,
+    model: &S,
     parameters: &[f64],
     start: &Point,
     search: &OrbitSearch,
     control: &Control,
-) -> Result<Orbit, OrbitError>
+) -> Result<Orbit, OrbitError<S::NoModel>>
 where
     F: Fn(&[f64]) -> Result<System, String> + Sync,
 {
@@ -173,12 +173,12 @@ where
 }
 
 /// The state behind the transient and the samples after it, for as many periods as an orbit may have.
-fn run(
-    model: &Model,
+fn run<S: Subject>(
+    model: &S,
     start: &Point,
     search: &OrbitSearch,
     control: &Control,
-) -> Result<Vec<Point>, OrbitError> {
+) -> Result<Vec<Point>, OrbitError<S::NoModel>> {
     let mut start = start.clone();
     if search.transient > 0 {
         let settled = settle(&[(model.clone(), start)], search.transient, 0, control)?.remove(0);
@@ -201,7 +201,7 @@ fn run(
     Ok(points)
 }
 
-fn is_near(model: &Model, orbit: &Orbit, way: &[Point]) -> bool {
+fn is_near<S: Subject>(model: &S, orbit: &Orbit, way: &[Point]) -> bool {
     let Some(last) = way.last() else { return false };
     let free = model.free_states();
     let distance = |place: &MapPoint| {
@@ -215,7 +215,7 @@ fn is_near(model: &Model, orbit: &Orbit, way: &[Point]) -> bool {
 }
 
 /// A point of the section as a place of the map.
-pub fn place(model: &Model, point: &Point) -> MapPoint {
+pub fn place<S: Subject>(model: &S, point: &Point) -> MapPoint {
     MapPoint {
         modes: point.modes.clone(),
         x: point.x[..model.free_states()].to_vec(),
@@ -223,89 +223,6 @@ pub fn place(model: &Model, point: &Point) -> MapPoint {
 }
 
 /// A place of the map as a point of the section.
-pub fn point(model: &Model, place: &MapPoint) -> Point {
+pub fn point<S: Subject>(model: &S, place: &MapPoint) -> Point {
     model.system().point(&place.modes, &place.x)
-}
-
-/// Effect of an orbit on floor and people.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Portrait {
-    /// Its points at cos(Omega t) = 1 in the paper's units, one per forcing period.
-    pub section: Vec<Section>,
-    /// Switches over the whole orbit, in time order; times from the first point on (s).
-    pub switches: Vec<TrajectorySwitch>,
-    /// Part of the time on the floor, of each body.
-    pub contact_ratio: Vec<f64>,
-    /// Phases of the drive at each touch-down of each body, in (0, 2 pi] (rad).
-    pub touch_down_phases: Vec<Vec<f64>>,
-    /// Largest plate reaction force on each body, in units of its weight.
-    pub peak_reaction: Vec<f64>,
-    /// The way around, at 2000 equal times per forcing period.
-    pub history: History,
-}
-
-/// Follows an orbit of `model` once around.
-///
-/// # Errors
-/// [`StudyError::Integrate`] for options out of range or when stopped.
-pub fn portrait(model: &Model, orbit: &Orbit, control: &Control) -> Result<Portrait, StudyError> {
-    let control = Control {
-        options: Options {
-            method: ORBIT_METHOD,
-            ..control.options
-        },
-        ..control.clone()
-    };
-    let bodies = model.setup().jumpers.len();
-    let periods = orbit.period() as u64;
-    let start = point(model, &orbit.places[0]);
-    let way = simulate(model, &start, periods, periods, POINTS, &control)?;
-    let seconds = model.scales().period();
-    let phase = |switch: &TrajectorySwitch| {
-        let turns = switch.time / seconds;
-        let part = turns - turns.ceil() + 1.0;
-        part * TAU
-    };
-    let touch_downs = |body: usize| {
-        let lands = |s: &&TrajectorySwitch| s.jumper == body && s.into == Some(Contact::Stance);
-        way.switches.iter().filter(lands).map(phase).collect()
-    };
-    let mean = |body: usize| {
-        way.contact_ratio.iter().map(|r| r[body]).sum::<f64>() / way.contact_ratio.len() as f64
-    };
-    let here = |place: &MapPoint| {
-        let point = point(model, place);
-        model.section(&point.modes, &point.x)
-    };
-    Ok(Portrait {
-        section: orbit.places.iter().map(here).collect(),
-        contact_ratio: (0..bodies).map(mean).collect(),
-        touch_down_phases: (0..bodies).map(touch_downs).collect(),
-        peak_reaction: way.peak_reaction,
-        switches: way.switches,
-        history: way.history,
-    })
-}
-
-/// The order of the switches of an orbit in letters: T for take-off and L for touch-down, with the number of the
-/// body from 1 where there are several; a bar between forcing periods, such as `LT|LT`.
-pub fn sequence(model: &Model, orbit: &Orbit) -> String {
-    let several = model.setup().jumpers.len() > 1;
-    let letter = |crossing: &saltus_orbits::Crossing| {
-        let (from, to) = (Contact::of(crossing.from), Contact::of(crossing.to));
-        let letter = match to {
-            _ if from == to => return String::new(),
-            Contact::Flight => "T",
-            Contact::Stance => "L",
-        };
-        let body = if several {
-            (crossing.unit + 1).to_string()
-        } else {
-            String::new()
-        };
-        format!("{letter}{body}")
-    };
-    let period = |crossings: &Vec<_>| crossings.iter().map(letter).collect::<String>();
-    let periods: Vec<String> = orbit.crossings.iter().map(period).collect();
-    periods.join("|")
 }

@@ -9,13 +9,12 @@ use std::sync::OnceLock;
 use saltus_hybrid::{End, Method, Point, Sample, Segment, Status, System, Task, integrate_stream};
 use saltus_orbits::{Criteria, MotionKind, Samples, Spectrum, Verdict, judge};
 
-use super::attractor::{Found, Lost};
-use super::confirm::{self, Near};
-use super::coordinates::{coordinates, width};
-use super::ensemble::{Control, Refused, StudyError};
-use super::recording::around;
-use super::search::Search;
-use crate::model::{Model, ModelError};
+use crate::attractor::{Found, Lost};
+use crate::confirm::{self, Near};
+use crate::ensemble::{Control, Refused, StudyError};
+use crate::recording::around;
+use crate::search::Search;
+use crate::subject::Subject;
 
 /// Periods in which the column turns into its direction.
 const ALIGNMENT: u64 = 40;
@@ -24,28 +23,29 @@ const ALIGNMENT: u64 = 40;
 const FIRST: u64 = 100;
 
 /// A motion that was found to have no period.
-pub(super) struct Doubtful {
+pub(crate) struct Doubtful<E> {
     number: usize,
-    found: Found,
+    found: Found<E>,
 }
 
-impl Doubtful {
-    pub(super) fn new(number: usize, found: Found) -> Self {
+impl<E> Doubtful<E> {
+    pub(crate) fn new(number: usize, found: Found<E>) -> Self {
         Self { number, found }
     }
 }
 
 /// Names the motions, into `sink`.
-pub(super) fn settle<F, E>(
-    mut doubtful: Vec<Doubtful>,
+pub(crate) fn settle<S, F, E>(
+    mut doubtful: Vec<Doubtful<S::NoModel>>,
     start_at: &F,
     search: &Search,
     control: &Control,
-    sink: &mut (impl FnMut(usize, Found) -> Result<(), E> + Send),
+    sink: &mut (impl FnMut(usize, Found<S::NoModel>) -> Result<(), E> + Send),
 ) -> Result<(), E>
 where
-    F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
-    E: From<StudyError> + Send,
+    F: Fn(usize) -> Result<(S, Point), S::NoModel> + Sync,
+    E: From<StudyError<S::NoModel>> + Send,
+    S: Subject,
 {
     let criteria = Criteria {
         noise: noise(control),
@@ -67,7 +67,7 @@ where
             done: false,
         });
         let mut later = Vec::new();
-        let take = |task: Ascent<'_, F>| match task.found {
+        let take = |task: Ascent<'_, S, F>| match task.found {
             Some(found) if task.done => sink(task.number, found).map_err(Refused::Sink),
             Some(found) => {
                 later.push(Doubtful::new(task.number, found));
@@ -93,20 +93,20 @@ fn noise(control: &Control) -> f64 {
 }
 
 /// A motion with one column of its tangent.
-struct Ascent<'a, F> {
+struct Ascent<'a, S: Subject, F> {
     number: usize,
-    found: Option<Found>,
+    found: Option<Found<S::NoModel>>,
     start_at: &'a F,
     search: &'a Search,
     control: &'a Control,
     criteria: &'a Criteria,
     structure: &'a OnceLock<System>,
-    motion: Option<Motion>,
+    motion: Option<Motion<S>>,
     done: bool,
 }
 
-struct Motion {
-    model: Model,
+struct Motion<S> {
+    model: S,
     spectrum: Spectrum,
     samples: Samples,
     /// Periods recorded, and those after which to judge.
@@ -116,12 +116,13 @@ struct Motion {
     lost: bool,
 }
 
-impl<F> Ascent<'_, F>
+impl<S, F> Ascent<'_, S, F>
 where
-    F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
+    S: Subject,
+    F: Fn(usize) -> Result<(S, Point), S::NoModel> + Sync,
 {
     /// Everything for the run, or why there is none.
-    fn prepare(&self) -> Result<(Motion, Segment), Refusal> {
+    fn prepare(&self) -> Result<(Motion<S>, Segment), Refusal> {
         let arrival = self.found.as_ref().and_then(|found| found.arrival.as_ref());
         let point = &arrival.ok_or(Refusal::Never)?.point;
         let (model, _) = (self.start_at)(self.number).map_err(|_| Refusal::Never)?;
@@ -139,7 +140,7 @@ where
         let column = spectrum.start_columns();
         system.columns_mut(&mut start.x).copy_from_slice(&column);
         let motion = Motion {
-            samples: Samples::new(width(&model)),
+            samples: Samples::new(model.width()),
             model,
             spectrum,
             recorded: 0,
@@ -164,9 +165,10 @@ enum Refusal {
     Never,
 }
 
-impl<F> Task for Ascent<'_, F>
+impl<S, F> Task for Ascent<'_, S, F>
 where
-    F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
+    S: Subject,
+    F: Fn(usize) -> Result<(S, Point), S::NoModel> + Sync,
 {
     fn begin(&mut self) -> Option<Segment> {
         match self.prepare() {
@@ -187,7 +189,7 @@ where
             return false;
         };
         let model = &motion.model;
-        motion.samples.push(|row| coordinates(model, sample.x, row));
+        motion.samples.push(|row| model.coordinates(sample.x, row));
         motion.recorded = sample.period.saturating_sub(ALIGNMENT);
         // The column of this period comes after this call.
         if sample.period <= ALIGNMENT + 1 {
@@ -232,13 +234,13 @@ where
     }
 }
 
-impl Motion {
+impl<S: Subject> Motion<S> {
     fn judge(&mut self, criteria: &Criteria) {
         self.verdict = Some(judge(&self.spectrum, self.samples.judge(), criteria));
     }
 
     /// Writes the verdict down. A cycle is one that Newton's method finds, and the motion's own.
-    fn name(&self, found: &mut Found, control: &Control) {
+    fn name(&self, found: &mut Found<S::NoModel>, control: &Control) {
         let (Ok(motion), Some(verdict), Some(arrival)) =
             (&mut found.attractor, self.verdict, &mut found.arrival)
         else {

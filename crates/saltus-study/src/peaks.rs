@@ -25,9 +25,9 @@ const FOUND: f64 = 1e-12;
 
 /// The largest values of `channels` quantities.
 #[derive(Clone, Debug)]
-pub(crate) struct Peaks {
+pub struct Peaks {
     /// Largest so far, channel by channel.
-    pub(crate) largest: Vec<f64>,
+    pub largest: Vec<f64>,
     x: Vec<f64>,
     /// Readings of a step, point by point.
     readings: Vec<f64>,
@@ -39,7 +39,7 @@ pub(crate) struct Peaks {
 
 impl Peaks {
     /// For states of this length.
-    pub(crate) fn new(channels: usize, states: usize) -> Self {
+    pub fn new(channels: usize, states: usize) -> Self {
         Self {
             largest: vec![0.0; channels],
             x: vec![0.0; states],
@@ -50,12 +50,12 @@ impl Peaks {
     }
 
     /// Forgets what was seen.
-    pub(crate) fn clear(&mut self) {
+    pub fn clear(&mut self) {
         self.largest.fill(0.0);
     }
 
     /// Takes a step into account; `read` gives the channels at a state.
-    pub(crate) fn step(&mut self, step: &Step<'_>, mut read: impl FnMut(&[f64], &mut [f64])) {
+    pub fn step(&mut self, step: &Step<'_>, mut read: impl FnMut(&[f64], &mut [f64])) {
         let channels = self.largest.len();
         if channels == 0 {
             return;

@@ -5,25 +5,25 @@ use std::sync::OnceLock;
 use saltus_hybrid::{End, Point, Sample, Segment, Status, Step, System, Task, integrate_stream};
 use saltus_orbits::{Closeness, MotionKind, OnCycle, Recurrence, Samples};
 
-use super::attractor::{Arrival, Attractor, Found, Lost};
-use super::confirm::{self, Near};
-use super::coordinates::{coordinates, width};
-use super::ensemble::{Control, Refused, StudyError};
-use super::recording::{Recording, around};
-use super::search::Search;
-use crate::model::{Model, ModelError};
+use crate::attractor::{Arrival, Attractor, Found, Lost};
+use crate::confirm::{self, Near};
+use crate::ensemble::{Control, Refused, StudyError};
+use crate::recording::{Recording, around};
+use crate::search::Search;
+use crate::subject::Subject;
 
 /// Runs all starts, those whose systems share a structure together: the others cannot share lanes with them.
-pub(super) fn approach<F, E>(
+pub(crate) fn approach<S, F, E>(
     starts: impl IntoIterator<Item = usize, IntoIter: Send>,
     start_at: &F,
     search: &Search,
     control: &Control,
-    mut sink: impl FnMut(usize, Found) -> Result<(), E> + Send,
+    mut sink: impl FnMut(usize, Found<S::NoModel>) -> Result<(), E> + Send,
 ) -> Result<(), E>
 where
-    F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
-    E: From<StudyError> + Send,
+    F: Fn(usize) -> Result<(S, Point), S::NoModel> + Sync,
+    E: From<StudyError<S::NoModel>> + Send,
+    S: Subject,
 {
     let mut later = round(starts.into_iter(), start_at, search, control, &mut sink)?;
     while !later.is_empty() {
@@ -34,16 +34,17 @@ where
 }
 
 /// Runs all starts whose systems share the structure of the first; gives back the others.
-fn round<F, E>(
+fn round<S, F, E>(
     starts: impl Iterator<Item = usize> + Send,
     start_at: &F,
     search: &Search,
     control: &Control,
-    sink: &mut (impl FnMut(usize, Found) -> Result<(), E> + Send),
+    sink: &mut (impl FnMut(usize, Found<S::NoModel>) -> Result<(), E> + Send),
 ) -> Result<Vec<usize>, E>
 where
-    F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
-    E: From<StudyError> + Send,
+    F: Fn(usize) -> Result<(S, Point), S::NoModel> + Sync,
+    E: From<StudyError<S::NoModel>> + Send,
+    S: Subject,
 {
     let structure = OnceLock::new();
     let mut later = Vec::new();
@@ -57,7 +58,7 @@ where
         motion: None,
         extended: false,
     });
-    let take = |task: Pursuit<'_, F>| match task.found {
+    let take = |task: Pursuit<'_, S, F>| match task.found {
         Some(found) => sink(task.number, found).map_err(Refused::Sink),
         None => {
             later.push(task.number);
@@ -76,15 +77,15 @@ where
 }
 
 /// One start on its way to its attractor.
-struct Pursuit<'a, F> {
+struct Pursuit<'a, S: Subject, F> {
     number: usize,
     start_at: &'a F,
     search: &'a Search,
     control: &'a Control,
     structure: &'a OnceLock<System>,
-    found: Option<Found>,
+    found: Option<Found<S::NoModel>>,
     /// Made when its turn comes, gone when it has ended.
-    motion: Option<Motion>,
+    motion: Option<Motion<S>>,
     /// Whether it has had more time because it was on its way.
     extended: bool,
 }
@@ -94,21 +95,22 @@ const PATIENCE: u64 = 4;
 const LONGEST: u64 = 4000;
 
 /// Record of a motion while it runs.
-struct Motion {
-    model: Model,
+struct Motion<S: Subject> {
+    model: S,
     samples: Samples,
     /// Period of the cycle on which the motion settled before the end of the transient, and what was left.
     settled: Option<OnCycle>,
-    recording: Option<Recording>,
+    recording: Option<Recording<S>>,
     periods: u64,
 }
 
 /// Samples between two looks whether the motion has settled.
 const LOOK: usize = 8;
 
-impl<F> Task for Pursuit<'_, F>
+impl<S, F> Task for Pursuit<'_, S, F>
 where
-    F: Fn(usize) -> Result<(Model, Point), ModelError> + Sync,
+    S: Subject,
+    F: Fn(usize) -> Result<(S, Point), S::NoModel> + Sync,
 {
     fn begin(&mut self) -> Option<Segment> {
         let (mut model, start) = match (self.start_at)(self.number) {
@@ -123,12 +125,12 @@ where
             }
         };
         let first = self.structure.get_or_init(|| model.system().clone());
-        if !model.share_system(first) {
+        if !model.share(first) {
             return None;
         }
         let system = model.system().clone();
         self.motion = Some(Motion {
-            samples: Samples::new(width(&model)),
+            samples: Samples::new(model.width()),
             model,
             settled: None,
             recording: None,
@@ -147,7 +149,7 @@ where
             return false;
         };
         let model = &motion.model;
-        motion.samples.push(|row| coordinates(model, sample.x, row));
+        motion.samples.push(|row| model.coordinates(sample.x, row));
         if let Some(recording) = &mut motion.recording {
             recording.end_period(model, sample);
             return true;
@@ -159,7 +161,7 @@ where
     }
 
     fn wants_steps(&self) -> bool {
-        let recording = |motion: &Motion| motion.recording.is_some();
+        let recording = |motion: &Motion<S>| motion.recording.is_some();
         self.motion.as_ref().is_some_and(recording)
     }
 
@@ -221,8 +223,8 @@ enum Conclusion {
     GoOn(Point),
 }
 
-impl Motion {
-    fn found(&self, attractor: Attractor, arrival: Arrival) -> Found {
+impl<S: Subject> Motion<S> {
+    fn found(&self, attractor: Attractor, arrival: Arrival) -> Found<S::NoModel> {
         Found {
             attractor: Ok(attractor),
             periods: self.periods,
@@ -233,7 +235,7 @@ impl Motion {
     /// Conclusion from the whole motion, which has come to `end`.
     fn conclude(
         &mut self,
-        recording: &Recording,
+        recording: &Recording<S>,
         end: &Point,
         search: &Search,
         control: &Control,
@@ -259,7 +261,7 @@ impl Motion {
                 None => Conclusion::GoOn(end.clone()),
             },
             Near::Unstable(orbit) => {
-                self.samples = Samples::new(width(&self.model));
+                self.samples = Samples::new(self.model.width());
                 Conclusion::GoOn(confirm::beside(&self.model, &orbit))
             }
             Near::Nothing if on.is_some() || self.samples.judge() == Recurrence::Drifting => {
@@ -273,9 +275,9 @@ impl Motion {
     /// of the last recorded periods.
     fn as_it_looks(
         &self,
-        recording: &Recording,
+        recording: &Recording<S>,
         kind: MotionKind,
-    ) -> (Attractor, Vec<Vec<[f64; 2]>>) {
+    ) -> (Attractor, Vec<Vec<f64>>) {
         let count = match kind {
             MotionKind::Periodic(n) => n as usize,
             _ => recording
@@ -283,13 +285,12 @@ impl Motion {
                 .min(Samples::ROWS)
                 .min(self.samples.count()),
         };
-        // z of all bodies come first in a sample, then v of all
-        let bodies = self.model.setup().jumpers.len();
-        let of = |body: usize| {
+        // the channels come first in a sample
+        let of = |channel: usize| {
             let rows = (0..count).rev().map(|back| self.samples.back(back));
-            rows.map(|row| [row[body], row[bodies + body]]).collect()
+            rows.map(|row| row[channel]).collect()
         };
-        let section: Vec<Vec<[f64; 2]>> = (0..bodies).map(of).collect();
+        let section: Vec<Vec<f64>> = (0..self.model.channels()).map(of).collect();
         let attractor = recording.motion(&self.model, kind, &section);
         (attractor, section)
     }

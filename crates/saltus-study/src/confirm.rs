@@ -9,10 +9,9 @@
 use saltus_hybrid::{Point, Segment, record};
 use saltus_orbits::{MapPoint, NewtonOptions, Orbit, Samples, find_orbit};
 
-use super::coordinates::{coordinates, width};
-use super::recording::rounded;
-use super::{Control, place, point, stroboscopic};
-use crate::model::Model;
+use crate::recording::rounded;
+use crate::subject::Subject;
+use crate::{Control, place, point, stroboscopic};
 
 /// A motion that comes back within this (eta) may be near a cycle.
 const NEAR: f64 = 0.1;
@@ -30,7 +29,7 @@ const TRIES: usize = 5;
 const KICK: f64 = 1e-3;
 
 /// The cycle that a motion is near.
-pub(super) enum Near {
+pub(crate) enum Near {
     /// Stable, and the motion is on it or comes closer.
     Stable(Orbit),
     /// Unstable, and the motion is on it.
@@ -40,7 +39,12 @@ pub(super) enum Near {
 }
 
 /// The cycle near a motion that has come to `end`, its last sample. It depends on these alone, to the bit.
-pub(super) fn cycle(model: &Model, end: &Point, samples: &Samples, control: &Control) -> Near {
+pub(crate) fn cycle<S: Subject>(
+    model: &S,
+    end: &Point,
+    samples: &Samples,
+    control: &Control,
+) -> Near {
     let mut returns = samples.returns(NEAR);
     returns.truncate(TRIES);
     let Some(&longest) = returns.last() else {
@@ -83,7 +87,7 @@ pub(super) fn cycle(model: &Model, end: &Point, samples: &Samples, control: &Con
 }
 
 /// A state beside a cycle, in the direction that grows most.
-pub(super) fn beside(model: &Model, orbit: &Orbit) -> Point {
+pub(crate) fn beside<S: Subject>(model: &S, orbit: &Orbit) -> Point {
     let n = orbit.monodromy.nrows();
     let mut direction = vec![1.0; n];
     for _ in 0..64 {
@@ -111,10 +115,10 @@ struct Distances {
 }
 
 impl Distances {
-    fn new(model: &Model, orbit: &Orbit, samples: &Samples) -> Self {
+    fn new<S: Subject>(model: &S, orbit: &Orbit, samples: &Samples) -> Self {
         let row = |place: &MapPoint| {
-            let mut row = vec![0.0; width(model)];
-            coordinates(model, &point(model, place).x, &mut row);
+            let mut row = vec![0.0; model.width()];
+            model.coordinates(&point(model, place).x, &mut row);
             row
         };
         let rows: Vec<Vec<f64>> = orbit.places.iter().map(row).collect();

@@ -1,6 +1,6 @@
 //! A share of starts, and how well it is known.
 
-use super::Range;
+use crate::Range;
 
 /// `count` of `of` starts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -22,7 +22,7 @@ impl BasinFraction {
 
     /// 95 % confidence interval of the probability behind it: Wilson's score interval [Wilson 1927], which, unlike
     /// the share plus or minus its deviation, is of use near 0 and 1 too. It holds for independent starts. Starts
-    /// spread evenly ([`Starts`](super::Starts)) give shares that are closer as a rule, so it is conservative.
+    /// spread evenly ([`Starts`](crate::Starts)) give shares that are closer as a rule, so it is conservative.
     pub fn interval(self) -> Range {
         if self.of == 0 {
             return [0.0, 1.0];

@@ -3,21 +3,19 @@
 //! Each comes with the evidence that it is one: a cycle with its Floquet multipliers, a torus with an exponent that is
 //! zero, chaos with an exponent and with motions that were watched and did not leave it.
 
-use super::attractor::{Arrival, Found, Lost};
-use super::basins::{AttractorCatalogue, Entry};
-use super::fraction::BasinFraction;
-use super::survival::Survival;
+use crate::attractor::{Arrival, Found, Lost};
+use crate::basins::{AttractorCatalogue, Entry};
+use crate::fraction::BasinFraction;
+use crate::survival::Survival;
 use saltus_hybrid::Point;
 use saltus_orbits::MotionKind;
 use std::collections::BTreeSet;
 
-use crate::model::ModelError;
-
 /// Ends of all starts of a box. The counts add up to the number of starts.
 ///
 /// An attractor that no start met is not in the list; [`BasinFraction::unseen`] bounds its share.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct AttractorCensus {
+#[derive(Clone, Debug, PartialEq)]
+pub struct AttractorCensus<E> {
     /// The attractors, those with the most starts first.
     pub attractors: Vec<CountedAttractor>,
     /// Chaos that looked like an attractor and ends.
@@ -28,7 +26,19 @@ pub struct AttractorCensus {
     /// Starts whose run ended early.
     pub lost: BasinFraction,
     /// Reason why the first of them did.
-    pub first_lost: Option<Lost>,
+    pub first_lost: Option<Lost<E>>,
+}
+
+impl<E> Default for AttractorCensus<E> {
+    fn default() -> Self {
+        Self {
+            attractors: Vec::new(),
+            transients: Vec::new(),
+            undecided: BasinFraction::default(),
+            lost: BasinFraction::default(),
+            first_lost: None,
+        }
+    }
 }
 
 /// One attractor of a [`AttractorCensus`].
@@ -59,14 +69,14 @@ pub struct Transient {
 
 /// The attractors at one value of a parameter.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct Row<E> {
     /// The value of the parameter.
     pub value: f64,
     /// The attractors there, or why there is no model.
-    pub census: Result<AttractorCensus, ModelError>,
+    pub census: Result<AttractorCensus<E>, E>,
 }
 
-impl Row {
+impl<E> Row<E> {
     /// The attractors there; none without a model.
     pub fn attractors(&self) -> &[CountedAttractor] {
         self.census
@@ -74,7 +84,7 @@ impl Row {
             .map_or(&[], |census| &census.attractors)
     }
 
-    pub(super) fn attractors_mut(&mut self) -> &mut [CountedAttractor] {
+    pub(crate) fn attractors_mut(&mut self) -> &mut [CountedAttractor] {
         self.census
             .as_mut()
             .map_or(&mut [], |census| &mut census.attractors)
@@ -82,8 +92,7 @@ impl Row {
 }
 
 /// A census under way.
-#[derive(Default)]
-pub(super) struct Tally {
+pub(crate) struct Tally<E> {
     catalogue: AttractorCatalogue,
     /// Of each entry's closest motion.
     arrivals: Vec<Arrival>,
@@ -96,12 +105,28 @@ pub(super) struct Tally {
     starts: u64,
     undecided: u64,
     lost: u64,
-    first_lost: Option<Lost>,
+    first_lost: Option<Lost<E>>,
 }
 
-impl Tally {
+impl<E> Default for Tally<E> {
+    fn default() -> Self {
+        Self {
+            catalogue: AttractorCatalogue::default(),
+            arrivals: Vec::new(),
+            survivals: Vec::new(),
+            refuted: BTreeSet::new(),
+            met: 0,
+            starts: 0,
+            undecided: 0,
+            lost: 0,
+            first_lost: None,
+        }
+    }
+}
+
+impl<E> Tally<E> {
     /// Files what a start of the box led to.
-    pub(super) fn count(&mut self, found: Found) {
+    pub(crate) fn count(&mut self, found: Found<E>) {
         self.starts += 1;
         match (found.attractor, found.arrival) {
             (Ok(motion), _) if motion.kind == MotionKind::Undecided => self.undecided += 1,
@@ -119,7 +144,7 @@ impl Tally {
     }
 
     /// Files what a motion carried here has become: the number of its attractor. No share changes.
-    pub(super) fn meet(&mut self, found: Found) -> Option<usize> {
+    pub(crate) fn meet(&mut self, found: Found<E>) -> Option<usize> {
         let (motion, arrival) = (found.attractor.ok()?, found.arrival?);
         let number = self.catalogue.file_uncounted(self.met, motion);
         self.keep(number, arrival);
@@ -138,22 +163,22 @@ impl Tally {
     }
 
     /// Number of attractors.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.arrivals.len()
     }
 
     /// A state on attractor `number`.
-    pub(super) fn point(&self, number: usize) -> &Point {
+    pub(crate) fn point(&self, number: usize) -> &Point {
         &self.arrivals[number].point
     }
 
     /// Kind of motion of attractor `number`.
-    pub(super) fn kind(&self, number: usize) -> MotionKind {
+    pub(crate) fn kind(&self, number: usize) -> MotionKind {
         self.catalogue.entries()[number].attractor.kind
     }
 
     /// Whether there is evidence that attractor `number` is one.
-    pub(super) fn is_proved(&self, number: usize) -> bool {
+    pub(crate) fn is_proved(&self, number: usize) -> bool {
         match self.kind(number) {
             MotionKind::Periodic(_) => {
                 let motion = &self.catalogue.entries()[number].attractor;
@@ -165,18 +190,18 @@ impl Tally {
     }
 
     /// Notes how long the chaos of attractor `number` lasted.
-    pub(super) fn watched(&mut self, number: usize, survival: Survival) {
+    pub(crate) fn watched(&mut self, number: usize, survival: Survival) {
         self.survivals[number] = Some(survival);
     }
 
     /// Notes that attractor `number` is none.
-    pub(super) fn refute(&mut self, number: usize) {
+    pub(crate) fn refute(&mut self, number: usize) {
         self.refuted.insert(number);
     }
 
     /// The census, and the place in it of each number; `None` for one that is no attractor. What was a transient to
     /// `root[number]` is none either, and its starts count for that one.
-    pub(super) fn ranked(mut self, root: &[usize]) -> (AttractorCensus, Vec<Option<usize>>) {
+    pub(crate) fn ranked(mut self, root: &[usize]) -> (AttractorCensus<E>, Vec<Option<usize>>) {
         let of = self.starts;
         let fraction = |count| BasinFraction { count, of };
         let mut transients = Vec::new();

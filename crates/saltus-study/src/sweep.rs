@@ -1,72 +1,65 @@
 //! The brute-force bifurcation diagram: for each value of a parameter, let transients die, then keep
-//! the stroboscopic samples. Del Prado's method, as DP section 3 uses it.
+//! the stroboscopic samples.
 
 use saltus_hybrid::{End, Point, Sample, Segment, Status, Task, integrate_groups};
 
-use super::{Control, StudyError};
-use crate::model::{Contact, Model, ModelError};
+use crate::subject::Subject;
+use crate::{Control, Outcome};
 
-/// One way through the values.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Pass {
+/// One way through the values; `A` is a start as people give it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pass<A> {
     /// Upwards, the state carried on from value to value.
     Up,
     /// Downwards, the state carried on.
     Down,
-    /// Each value anew from this start, plate at rest.
-    Start {
-        /// z/eta of every body.
-        z: f64,
-        /// z'/(eta omega_h) of every body.
-        v: f64,
-    },
+    /// Each value anew from this start.
+    Start(A),
 }
 
 /// A sweep through `values` (ascending).
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sweep {
+pub struct Sweep<A> {
     /// Values of the parameter, ascending.
     pub values: Vec<f64>,
     /// The passes to make.
-    pub passes: Vec<Pass>,
-    /// First start of the up and down passes: z/eta and z'/(eta omega_h).
-    pub start: (f64, f64),
+    pub passes: Vec<Pass<A>>,
+    /// First start of the up and down passes.
+    pub start: A,
     /// Periods before anything is kept.
     pub transient: u64,
     /// Periods kept.
     pub record: u64,
 }
 
-impl Sweep {
+impl<A> Sweep<A> {
     /// Periods to run in all, for a progress display.
     pub fn periods(&self) -> u64 {
         (self.values.len() * self.passes.len()) as u64 * (self.transient + self.record)
     }
+}
 
-    /// `count` values from `from` to `to`, both included.
-    pub fn linspace(from: f64, to: f64, count: usize) -> Vec<f64> {
-        let last = count.saturating_sub(1).max(1) as f64;
-        (0..count)
-            .map(|i| from + (to - from) * i as f64 / last)
-            .collect()
-    }
+/// `count` values from `from` to `to`, both included.
+pub fn linspace(from: f64, to: f64, count: usize) -> Vec<f64> {
+    let last = count.saturating_sub(1).max(1) as f64;
+    (0..count)
+        .map(|i| from + (to - from) * i as f64 / last)
+        .collect()
 }
 
 /// Samples and status at one value in one pass.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SweepRow {
+pub struct SweepRow<E> {
     /// Index of the pass in [`Sweep::passes`].
     pub pass: usize,
     /// Value of the parameter.
     pub value: f64,
-    /// z/eta at the kept samples, body by body: `z[body][sample]`.
-    pub z: Vec<Vec<f64>>,
-    /// z'/(eta omega_h) likewise.
-    pub v: Vec<Vec<f64>>,
-    /// Part of the kept time each body spent on the floor.
+    /// The section at the kept samples, channel by channel: `section[channel][sample]`.
+    pub section: Vec<Vec<f64>>,
+    /// Part of the kept time that each contact was closed.
     pub contact_ratio: Vec<f64>,
     /// End of the run, or the model's error.
-    pub status: Result<Status, ModelError>,
+    pub status: Result<Status, E>,
     /// Last state, to go on from; `None` without a model.
     pub end: Option<Point>,
 }
@@ -77,10 +70,15 @@ pub struct SweepRow {
 /// carries its state goes on from the pass's first start after such a row.
 ///
 /// # Errors
-/// [`StudyError::Integrate`] for options out of range or when stopped.
-pub fn sweep<F>(sweep: &Sweep, model_at: F, control: &Control) -> Result<Vec<SweepRow>, StudyError>
+/// [`StudyError::Integrate`](crate::StudyError::Integrate) for options out of range or when stopped.
+pub fn sweep<S, F>(
+    sweep: &Sweep<S::Start>,
+    model_at: F,
+    control: &Control,
+) -> Outcome<Vec<SweepRow<S::NoModel>>, S>
 where
-    F: Fn(f64) -> Result<Model, ModelError> + Sync,
+    S: Subject,
+    F: Fn(f64) -> Result<S, S::NoModel> + Sync,
 {
     Ok(sweep_many(&[(sweep.clone(), &model_at)], control)?.remove(0))
 }
@@ -89,23 +87,24 @@ where
 ///
 /// # Errors
 /// As [`sweep`].
-pub fn sweep_many<F>(
-    sweeps: &[(Sweep, F)],
+pub fn sweep_many<S, F>(
+    sweeps: &[(Sweep<S::Start>, F)],
     control: &Control,
-) -> Result<Vec<Vec<SweepRow>>, StudyError>
+) -> Outcome<Vec<Vec<SweepRow<S::NoModel>>>, S>
 where
-    F: Fn(f64) -> Result<Model, ModelError> + Sync,
+    S: Subject,
+    F: Fn(f64) -> Result<S, S::NoModel> + Sync,
 {
     let mut tasks = Vec::new();
     for (sweep_index, (sweep, model_at)) in sweeps.iter().enumerate() {
         for (pass, way) in sweep.passes.iter().enumerate() {
             let mut values: Vec<(usize, f64)> = sweep.values.iter().copied().enumerate().collect();
-            let task = |values, start| Chain {
+            let task = |values, start: &S::Start| Chain {
                 sweep_index,
                 pass,
                 values,
                 next: 0,
-                start,
+                start: start.clone(),
                 transient: sweep.transient,
                 record: sweep.record,
                 model_at,
@@ -113,14 +112,14 @@ where
                 current: None,
                 rows: Vec::new(),
             };
-            match *way {
-                Pass::Up => tasks.push(task(values, sweep.start)),
+            match way {
+                Pass::Up => tasks.push(task(values, &sweep.start)),
                 Pass::Down => {
                     values.reverse();
-                    tasks.push(task(values, sweep.start));
+                    tasks.push(task(values, &sweep.start));
                 }
-                Pass::Start { z, v } => {
-                    tasks.extend(values.into_iter().map(|value| task(vec![value], (z, v))));
+                Pass::Start(start) => {
+                    tasks.extend(values.into_iter().map(|value| task(vec![value], start)));
                 }
             }
         }
@@ -136,7 +135,7 @@ where
     }
     let ended = integrate_groups(&control.options, grouped, control.threads, &control.stop)?;
     let ended = ended.into_iter().flatten();
-    let mut rows: Vec<Vec<(usize, SweepRow)>> = vec![Vec::new(); sweeps.len()];
+    let mut rows: Vec<Vec<(usize, SweepRow<S::NoModel>)>> = vec![Vec::new(); sweeps.len()];
     for chain in ended {
         rows[chain.sweep_index].extend(chain.rows);
     }
@@ -150,15 +149,17 @@ where
 }
 
 /// Groups of sweeps that share a structure, so that they can share lanes: a group number for each.
-fn groups<F>(sweeps: &[(Sweep, F)]) -> Vec<usize>
+fn groups<S, F>(sweeps: &[(Sweep<S::Start>, F)]) -> Vec<usize>
 where
-    F: Fn(f64) -> Result<Model, ModelError> + Sync,
+    S: Subject,
+    F: Fn(f64) -> Result<S, S::NoModel> + Sync,
 {
-    let mut known: Vec<Option<Model>> = Vec::new();
-    let first =
-        |(sweep, model_at): &(Sweep, F)| sweep.values.iter().find_map(|&v| model_at(v).ok());
-    let mut group = |model: Option<Model>| {
-        let same = |other: &Option<Model>| match (&model, other) {
+    let mut known: Vec<Option<S>> = Vec::new();
+    let first = |(sweep, model_at): &(Sweep<S::Start>, F)| {
+        sweep.values.iter().find_map(|&v| model_at(v).ok())
+    };
+    let mut group = |model: Option<S>| {
+        let same = |other: &Option<S>| match (&model, other) {
             (Some(a), Some(b)) => a.system().same_structure(b.system()),
             _ => false,
         };
@@ -171,46 +172,46 @@ where
 }
 
 /// One pass with carried state, or one restart.
-struct Chain<'a, F> {
+struct Chain<'a, S: Subject, F> {
     sweep_index: usize,
     pass: usize,
     values: Vec<(usize, f64)>,
     next: usize,
-    start: (f64, f64),
+    start: S::Start,
     transient: u64,
     record: u64,
     model_at: &'a F,
     control: &'a Control,
-    current: Option<Current>,
-    rows: Vec<(usize, SweepRow)>,
+    current: Option<Current<S>>,
+    rows: Vec<(usize, SweepRow<S::NoModel>)>,
 }
 
 /// The value being run.
-struct Current {
+struct Current<S: Subject> {
     index: usize,
-    model: Model,
-    row: SweepRow,
-    stance: Vec<f64>,
+    model: S,
+    row: SweepRow<S::NoModel>,
+    closed: Vec<f64>,
 }
 
-impl<F> Chain<'_, F>
+impl<S, F> Chain<'_, S, F>
 where
-    F: Fn(f64) -> Result<Model, ModelError> + Sync,
+    S: Subject,
+    F: Fn(f64) -> Result<S, S::NoModel> + Sync,
 {
     /// The next value that has a model, from the carried state if there is one.
-    fn advance(&mut self, mut carried: Option<(Model, Point)>) -> Option<Segment> {
+    fn advance(&mut self, mut carried: Option<(S, Point)>) -> Option<Segment> {
         while let Some(&(index, value)) = self.values.get(self.next) {
             self.next += 1;
             let mut row = SweepRow {
                 pass: self.pass,
                 value,
-                z: Vec::new(),
-                v: Vec::new(),
+                section: Vec::new(),
                 contact_ratio: Vec::new(),
                 status: Ok(Status::Completed),
                 end: None,
             };
-            let stable = |model: Model| model.check_step(&self.control.options).map(|()| model);
+            let stable = |model: S| model.check(&self.control.options).map(|()| model);
             match (self.model_at)(value).and_then(stable) {
                 Err(error) => {
                     row.status = Err(error);
@@ -220,26 +221,24 @@ where
                 Ok(mut model) => {
                     let start = match &carried {
                         Some((previous, point)) => {
-                            model.share_structure(previous);
+                            model.share(previous.system());
                             model.carry(previous, point)
                         }
-                        None => model.start(self.start.0, self.start.1),
+                        None => model.start(&self.start),
                     };
-                    let bodies = model.setup().jumpers.len();
                     let room = || Vec::with_capacity(self.record as usize);
-                    row.z = (0..bodies).map(|_| room()).collect();
-                    row.v = (0..bodies).map(|_| room()).collect();
+                    row.section = (0..model.channels()).map(|_| room()).collect();
                     let segment = Segment {
                         system: model.system().clone(),
                         start,
                         periods: self.transient + self.record,
                     };
-                    let stance = vec![0.0; bodies];
+                    let closed = vec![0.0; model.contacts()];
                     self.current = Some(Current {
                         index,
                         model,
                         row,
-                        stance,
+                        closed,
                     });
                     return Some(segment);
                 }
@@ -249,9 +248,10 @@ where
     }
 }
 
-impl<F> Task for Chain<'_, F>
+impl<S, F> Task for Chain<'_, S, F>
 where
-    F: Fn(f64) -> Result<Model, ModelError> + Sync,
+    S: Subject,
+    F: Fn(f64) -> Result<S, S::NoModel> + Sync,
 {
     fn begin(&mut self) -> Option<Segment> {
         self.advance(None)
@@ -264,16 +264,12 @@ where
             .as_mut()
             .filter(|_| sample.period > self.transient)
         {
-            for body in 0..current.stance.len() {
-                current.row.z[body].push(current.model.z(body, sample.x));
-                current.row.v[body].push(current.model.v(body, sample.x));
-                let on_floor = |&(mode, _): &(usize, &f64)| Contact::of(mode) == Contact::Stance;
-                current.stance[body] += sample.dwell[body]
-                    .iter()
-                    .enumerate()
-                    .filter(on_floor)
-                    .map(|(_, t)| t)
-                    .sum::<f64>();
+            let model = &current.model;
+            for (channel, samples) in current.row.section.iter_mut().enumerate() {
+                samples.push(model.channel(channel, sample.x));
+            }
+            for (contact, time) in current.closed.iter_mut().enumerate() {
+                *time += model.contact_time(contact, sample.dwell);
             }
         }
         true
@@ -284,10 +280,10 @@ where
             index,
             model,
             mut row,
-            stance,
+            closed,
         } = self.current.take()?;
         let kept = end.periods.saturating_sub(self.transient) as f64 * model.system().period();
-        row.contact_ratio = stance.iter().map(|time| time / kept).collect();
+        row.contact_ratio = closed.iter().map(|time| time / kept).collect();
         row.status = Ok(end.status);
         row.end = Some(end.point.clone());
         self.rows.push((index, row));

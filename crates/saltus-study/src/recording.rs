@@ -1,73 +1,60 @@
-//! The effect of a motion on floor and people, period by period.
+//! What is seen of a motion, period by period.
 
 use saltus_hybrid::{End, Point, Sample, Segment, Step, Task, integrate};
 use saltus_orbits::{MapPoint, MotionKind, Orbit};
 
-use super::attractor::{Arrival, Attractor, Range};
-use super::peaks::Peaks;
-use super::{Control, point};
-use crate::model::{Contact, Model, Probe};
+use crate::attractor::{Arrival, Attractor, Range};
+use crate::peaks::Peaks;
+use crate::subject::{Probe, Subject};
+use crate::{Control, point};
 
 /// Record of a motion, period by period.
-pub(super) struct Recording {
-    probe: Probe,
+pub(crate) struct Recording<S: Subject> {
+    probe: S::Probe,
     peaks: Peaks,
-    /// Time of each body on the floor.
-    stance: Vec<Vec<f64>>,
-    /// Largest floor acceleration, and reaction of each body.
+    /// Time of each contact.
+    contact: Vec<Vec<f64>>,
+    /// Largest of each peak.
     tops: Vec<Vec<f64>>,
-    /// Of z and v of each body at the samples.
-    ranges: Vec<(Range, Range)>,
+    /// Of each channel at the samples.
+    ranges: Vec<Range>,
 }
 
-impl Recording {
-    pub(super) fn new(model: &Model) -> Self {
-        let bodies = model.setup().jumpers.len();
+impl<S: Subject> Recording<S> {
+    pub(crate) fn new(model: &S) -> Self {
         Self {
             probe: model.probe(),
-            peaks: Peaks::new(1 + bodies, model.system().state_len()),
-            stance: Vec::new(),
+            peaks: Peaks::new(model.peaks(), model.system().state_len()),
+            contact: Vec::new(),
             tops: Vec::new(),
-            ranges: vec![(NOTHING, NOTHING); bodies],
+            ranges: vec![NOTHING; model.channels()],
         }
     }
 
-    pub(super) fn step(&mut self, step: &Step<'_>) {
+    pub(crate) fn step(&mut self, step: &Step<'_>) {
         let probe = &mut self.probe;
-        self.peaks.step(step, |x, out| {
-            let reading = probe.read(step.modes, x);
-            out[0] = reading.floor.first().map_or(0.0, |a| a.abs());
-            out[1..].copy_from_slice(reading.reaction);
-        });
+        self.peaks
+            .step(step, |x, out| probe.read(step.modes, x, out));
     }
 
-    pub(super) fn end_period(&mut self, model: &Model, sample: &Sample<'_>) {
-        for (body, (z, v)) in self.ranges.iter_mut().enumerate() {
-            *z = widened(*z, model.z(body, sample.x));
-            *v = widened(*v, model.v(body, sample.x));
+    pub(crate) fn end_period(&mut self, model: &S, sample: &Sample<'_>) {
+        for (channel, range) in self.ranges.iter_mut().enumerate() {
+            *range = widened(*range, model.channel(channel, sample.x));
         }
-        let on_floor = |&(mode, _): &(usize, &f64)| Contact::of(mode) == Contact::Stance;
-        let stance = |dwell: &Vec<f64>| -> f64 {
-            let times = dwell.iter().enumerate().filter(on_floor);
-            times.map(|(_, time)| time).sum()
-        };
-        self.stance.push(sample.dwell.iter().map(stance).collect());
+        let contacts = 0..model.contacts();
+        let closed = contacts.map(|contact| model.contact_time(contact, sample.dwell));
+        self.contact.push(closed.collect());
         self.tops.push(self.peaks.largest.clone());
         self.peaks.clear();
     }
 
     /// Periods recorded.
-    pub(super) fn periods(&self) -> usize {
-        self.stance.len()
+    pub(crate) fn periods(&self) -> usize {
+        self.tops.len()
     }
 
-    /// A motion of this kind with this section, `section[body][sample]`.
-    pub(super) fn motion(
-        &self,
-        model: &Model,
-        kind: MotionKind,
-        section: &[Vec<[f64; 2]>],
-    ) -> Attractor {
+    /// A motion of this kind with this section, `section[channel][sample]`.
+    pub(crate) fn motion(&self, model: &S, kind: MotionKind, section: &[Vec<f64>]) -> Attractor {
         let recorded = self.periods();
         // whole cycles only, the last ones
         let used = match kind {
@@ -75,28 +62,19 @@ impl Recording {
             _ => recorded,
         };
         let last = recorded - used..recorded;
-        let (stance, tops) = (&self.stance[last.clone()], &self.tops[last]);
-        let bodies = model.setup().jumpers.len();
+        let (contact, tops) = (&self.contact[last.clone()], &self.tops[last]);
         let time = used as f64 * model.system().period();
-        let on_floor = |body: usize| stance.iter().map(|s| s[body]).sum::<f64>() / time;
-        let top = |channel: usize| {
-            tops.iter()
-                .fold(0.0, |most: f64, top| most.max(top[channel]))
-        };
-        let of_cycle = |part: usize| -> Vec<Vec<f64>> {
-            let samples = |body: &Vec<[f64; 2]>| match kind {
-                MotionKind::Periodic(_) => body.iter().map(|sample| sample[part]).collect(),
-                _ => Vec::new(),
-            };
-            section.iter().map(samples).collect()
+        let ratio = |number: usize| contact.iter().map(|all| all[number]).sum::<f64>() / time;
+        let top = |peak: usize| tops.iter().fold(0.0, |most: f64, top| most.max(top[peak]));
+        let of_cycle = |samples: &Vec<f64>| match kind {
+            MotionKind::Periodic(_) => samples.clone(),
+            _ => Vec::new(),
         };
         Attractor {
             kind,
-            contact_ratio: (0..bodies).map(on_floor).collect(),
-            peak_reaction: (0..bodies).map(|body| top(1 + body)).collect(),
-            peak_acceleration: top(0),
-            z: of_cycle(0),
-            v: of_cycle(1),
+            contact_ratio: (0..model.contacts()).map(ratio).collect(),
+            peaks: (0..model.peaks()).map(top).collect(),
+            section: section.iter().map(of_cycle).collect(),
             ranges: self.ranges.clone(),
             rest: 0.0,
             multiplier: None,
@@ -116,14 +94,14 @@ fn widened([low, high]: Range, value: f64) -> Range {
 /// is said of them is rounded to 1 / GRID, so that it is the same there too.
 const GRID: f64 = (1_u64 << 30) as f64;
 
-pub(super) fn rounded(x: f64) -> f64 {
+pub(crate) fn rounded(x: f64) -> f64 {
     (x * GRID).round() / GRID
 }
 
 /// The motion on a cycle, recorded once around; it ends at the first place of the orbit. `None` if stopped, or if
 /// the cycle cannot be run at the tolerance of `control`.
-pub(super) fn around(
-    model: &Model,
+pub(crate) fn around<S: Subject>(
+    model: &S,
     orbit: &Orbit,
     control: &Control,
 ) -> Option<(Attractor, Arrival)> {
@@ -150,11 +128,13 @@ pub(super) fn around(
     // in the order of time, the first place last
     let ordered = orbit.places.iter().skip(1).chain(&orbit.places[..1]);
     let points: Vec<Point> = ordered.map(here).collect();
-    let body = |i: usize| {
-        let sample = |point: &Point| [model.z(i, &point.x), model.v(i, &point.x)];
-        points.iter().map(sample).collect()
+    let channel = |i: usize| {
+        points
+            .iter()
+            .map(|point| model.channel(i, &point.x))
+            .collect()
     };
-    let section: Vec<Vec<[f64; 2]>> = (0..model.setup().jumpers.len()).map(body).collect();
+    let section: Vec<Vec<f64>> = (0..model.channels()).map(channel).collect();
     let kind = MotionKind::Periodic(orbit.period() as u32);
     let motion = Attractor {
         multiplier: orbit
@@ -171,13 +151,13 @@ pub(super) fn around(
 }
 
 /// Once around a cycle.
-struct Lap<'a> {
-    model: &'a Model,
+struct Lap<'a, S: Subject> {
+    model: &'a S,
     segment: Option<Segment>,
-    recording: Recording,
+    recording: Recording<S>,
 }
 
-impl Task for Lap<'_> {
+impl<S: Subject> Task for Lap<'_, S> {
     fn begin(&mut self) -> Option<Segment> {
         self.segment.take()
     }

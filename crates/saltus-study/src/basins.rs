@@ -2,11 +2,11 @@
 //!
 //! Cycles are the same if they have the same period and their samples agree within [`SAME`] after some
 //! rotation: all starts are at phase 0 of the drive, so the n shifts of an n-cycle are one attractor
-//! reached with different delays. Motions that do not repeat are the same if the ranges of z and of v
-//! at the samples overlap by more than half of the shorter one, for every body. A finite record of chaos
+//! reached with different delays. Motions that do not repeat are the same if the ranges of every channel
+//! at the samples overlap by more than half of the shorter one. A finite record of chaos
 //! shows its band only roughly, so this joins two such attractors sooner than it invents one.
 
-use super::attractor::{Attractor, Range};
+use crate::attractor::{Attractor, Range};
 use saltus_orbits::MotionKind;
 
 /// Samples that differ by no more than this (eta) may be of one cycle; twice what
@@ -31,7 +31,7 @@ pub struct Entry {
     /// Number of the start whose motion came closest to it.
     pub closest: usize,
     /// Ranges of all motions joined; of a cycle, its own.
-    ranges: Vec<(Range, Range)>,
+    ranges: Vec<Range>,
 }
 
 impl Entry {
@@ -41,7 +41,7 @@ impl Entry {
     }
 
     /// Whether `motion` is on this attractor.
-    pub(super) fn holds(&self, motion: &Attractor) -> bool {
+    pub(crate) fn holds(&self, motion: &Attractor) -> bool {
         match (motion.kind, self.attractor.kind) {
             (MotionKind::Periodic(n), MotionKind::Periodic(m)) if n == m => {
                 same_cycle(motion, &self.attractor)
@@ -65,7 +65,7 @@ impl AttractorCatalogue {
     }
 
     /// As [`Self::file`], for a motion from elsewhere that says nothing about shares.
-    pub(super) fn file_uncounted(&mut self, start: usize, motion: Attractor) -> Option<usize> {
+    pub(crate) fn file_uncounted(&mut self, start: usize, motion: Attractor) -> Option<usize> {
         if motion.kind == MotionKind::Undecided {
             return None;
         }
@@ -82,7 +82,7 @@ impl AttractorCatalogue {
         };
         let entry = &mut self.entries[number];
         for (all, one) in entry.ranges.iter_mut().zip(&motion.ranges) {
-            *all = (hull(all.0, one.0), hull(all.1, one.1));
+            *all = hull(*all, *one);
         }
         // one that Newton's method confirmed stands before all others
         let closeness = |motion: &Attractor| (motion.multiplier.is_none(), motion.rest);
@@ -94,7 +94,7 @@ impl AttractorCatalogue {
     }
 
     /// Counts the starts of one entry for another.
-    pub(super) fn count_for(&mut self, number: usize, other: usize) {
+    pub(crate) fn count_for(&mut self, number: usize, other: usize) {
         let count = std::mem::take(&mut self.entries[number].count);
         let first = self.entries[number].first;
         let other = &mut self.entries[other];
@@ -126,11 +126,11 @@ impl AttractorCatalogue {
     }
 }
 
-/// Whether some rotation brings the samples of two n-cycles together, for all bodies at once.
+/// Whether some rotation brings the samples of two n-cycles together, for all channels at once.
 fn same_cycle(a: &Attractor, b: &Attractor) -> bool {
-    let n = a.z.first().map_or(0, Vec::len);
+    let n = a.section.first().map_or(0, Vec::len);
     let agree = |shift: usize| {
-        let lists = a.z.iter().zip(&b.z).chain(a.v.iter().zip(&b.v));
+        let lists = a.section.iter().zip(&b.section);
         lists
             .flat_map(|(a, b)| (0..n).map(move |i| (a[i], b[(i + shift) % n])))
             .all(|(a, b)| (a - b).abs() <= SAME)
@@ -138,9 +138,8 @@ fn same_cycle(a: &Attractor, b: &Attractor) -> bool {
     (0..n).any(agree)
 }
 
-fn same_band(a: &[(Range, Range)], b: &[(Range, Range)]) -> bool {
-    let both = |(a, b): (&(Range, Range), &(Range, Range))| overlap(a.0, b.0) && overlap(a.1, b.1);
-    a.iter().zip(b).all(both)
+fn same_band(a: &[Range], b: &[Range]) -> bool {
+    a.iter().zip(b).all(|(a, b)| overlap(*a, *b))
 }
 
 /// By more than half of the shorter one.
@@ -162,11 +161,9 @@ mod tests {
         Attractor {
             kind: MotionKind::Periodic(z.len() as u32),
             contact_ratio: vec![0.5],
-            peak_reaction: vec![3.0],
-            peak_acceleration: 2.0,
-            z: vec![z.to_vec()],
-            v: vec![z.iter().map(|z| 2.0 * z).collect()],
-            ranges: vec![(range, range)],
+            peaks: vec![2.0, 3.0],
+            section: vec![z.to_vec(), z.iter().map(|z| 2.0 * z).collect()],
+            ranges: vec![range, range],
             rest,
             multiplier: None,
             exponent: None,
@@ -177,9 +174,8 @@ mod tests {
     fn band(low: f64, high: f64) -> Attractor {
         Attractor {
             kind: MotionKind::NotPeriodic,
-            ranges: vec![([low, high], [low, high])],
-            z: vec![vec![]],
-            v: vec![vec![]],
+            ranges: vec![[low, high], [low, high]],
+            section: vec![vec![], vec![]],
             ..cycle(&[0.0], 0.0)
         }
     }
@@ -226,7 +222,7 @@ mod tests {
         };
         assert_eq!(all.file(5, lost), None);
         let (entries, rank) = all.ranked();
-        let z: Vec<f64> = entries.iter().map(|e| e.attractor.z[0][0]).collect();
+        let z: Vec<f64> = entries.iter().map(|e| e.attractor.section[0][0]).collect();
         assert_eq!(z, [2.0, 3.0, 1.0]);
         assert_eq!(rank, [2, 0, 1]);
         assert_eq!(entries[0].share(6), 1.0 / 3.0);

@@ -2,16 +2,14 @@
 
 use saltus_hybrid::{End, Point, Sample, Segment, Status, Task, integrate_all};
 
-use super::{Control, StudyError};
-use crate::model::Model;
+use crate::subject::Subject;
+use crate::{Control, Outcome};
 
 /// A motion after its transient.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settled {
-    /// z/eta of the first body at the kept samples.
-    pub z: Vec<f64>,
-    /// z'/(eta omega_h) of the first body.
-    pub v: Vec<f64>,
+    /// The section at the kept samples, channel by channel: `section[channel][sample]`.
+    pub section: Vec<Vec<f64>>,
     /// Last state.
     pub end: Point,
     /// Status at the end.
@@ -21,14 +19,14 @@ pub struct Settled {
 /// Runs each (model, start) for `transient` periods and keeps the `record` after that.
 ///
 /// # Errors
-/// [`StudyError::Integrate`] for options out of range, models of different structure, or when stopped.
-pub fn settle(
-    starts: &[(Model, Point)],
+/// [`StudyError::Integrate`](crate::StudyError::Integrate) for options out of range, models of different structure, or when stopped.
+pub fn settle<S: Subject>(
+    starts: &[(S, Point)],
     transient: u64,
     record: u64,
     control: &Control,
-) -> Result<Vec<Settled>, StudyError> {
-    let task = |(model, start): &(Model, Point)| Run {
+) -> Outcome<Vec<Settled>, S> {
+    let task = |(model, start): &(S, Point)| Run {
         segment: Some(Segment {
             system: model.system().clone(),
             start: start.clone(),
@@ -38,8 +36,7 @@ pub fn settle(
         control,
         transient,
         out: Settled {
-            z: Vec::new(),
-            v: Vec::new(),
+            section: vec![Vec::new(); model.channels()],
             end: start.clone(),
             status: Status::Completed,
         },
@@ -49,24 +46,25 @@ pub fn settle(
     Ok(ended.into_iter().map(|run| run.out).collect())
 }
 
-struct Run<'a> {
+struct Run<'a, S> {
     segment: Option<Segment>,
-    model: Model,
+    model: S,
     control: &'a Control,
     transient: u64,
     out: Settled,
 }
 
-impl Task for Run<'_> {
+impl<S: Subject> Task for Run<'_, S> {
     fn begin(&mut self) -> Option<Segment> {
         self.segment.take()
     }
 
     fn sample(&mut self, sample: &Sample<'_>) -> bool {
         self.control.count_period();
-        if sample.period > self.transient && !sample.modes.is_empty() {
-            self.out.z.push(self.model.z(0, sample.x));
-            self.out.v.push(self.model.v(0, sample.x));
+        if sample.period > self.transient {
+            for (channel, samples) in self.out.section.iter_mut().enumerate() {
+                samples.push(self.model.channel(channel, sample.x));
+            }
         }
         true
     }

@@ -13,24 +13,24 @@
 use saltus_orbits::MotionKind;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::census::{CountedAttractor, Row};
+use crate::census::{CountedAttractor, Row};
 
 /// An attractor: place of the value, and place in the census there.
-pub(super) type Node = (usize, usize);
+pub(crate) type Node = (usize, usize);
 
 /// Attractors that each attractor leads to when it is carried.
-pub(super) type Links = BTreeMap<(Node, Way), Node>;
+pub(crate) type Links = BTreeMap<(Node, Way), Node>;
 
 /// The way through the values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Way {
+pub(crate) enum Way {
     Up,
     Down,
 }
 
 impl Way {
     /// The places beyond `at`, of `count` in all, the next first.
-    pub(super) fn beyond(self, at: usize, count: usize) -> impl Iterator<Item = usize> {
+    pub(crate) fn beyond(self, at: usize, count: usize) -> impl Iterator<Item = usize> {
         let (up, down) = match self {
             Self::Up => (at + 1..count, 0..0),
             Self::Down => (0..0, 0..at),
@@ -43,7 +43,7 @@ impl Way {
 const CLOSER: f64 = 4.0;
 
 /// For each attractor the one that it was at an earlier value, if any.
-pub(super) fn matches(rows: &[Row], links: &Links) -> BTreeMap<Node, Node> {
+pub(crate) fn matches<E>(rows: &[Row<E>], links: &Links) -> BTreeMap<Node, Node> {
     let at = |node: Node| &rows[node.0].attractors()[node.1];
     let possible = |low: Node, high: Node| may_become(at(low), at(high));
     // a link from either side, as (lower, higher)
@@ -86,14 +86,13 @@ fn may_become(a: &CountedAttractor, b: &CountedAttractor) -> bool {
     }
 }
 
-/// Hausdorff distance of two sections, in the largest of all coordinates of all bodies (eta).
+/// Hausdorff distance of two sections, in the largest of all channels.
 fn distance(a: &CountedAttractor, b: &CountedAttractor) -> f64 {
     let (a, b) = (&a.arrival.section, &b.arrival.section);
-    let count = |section: &[Vec<[f64; 2]>]| section.first().map_or(0, Vec::len);
-    let gap = |(a, b): (&[f64; 2], &[f64; 2])| (a[0] - b[0]).abs().max((a[1] - b[1]).abs());
+    let count = |section: &[Vec<f64>]| section.first().map_or(0, Vec::len);
     let points = |i: usize, j: usize| {
-        let bodies = a.iter().zip(b).map(|(a, b)| gap((&a[i], &b[j])));
-        bodies.fold(0.0, f64::max)
+        let channels = a.iter().zip(b).map(|(a, b)| (a[i] - b[j]).abs());
+        channels.fold(0.0, f64::max)
     };
     let nearest =
         |distances: &mut dyn Iterator<Item = f64>| distances.fold(f64::INFINITY, f64::min);

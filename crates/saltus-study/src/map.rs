@@ -2,11 +2,11 @@
 
 use saltus_hybrid::Point;
 
-use super::attractor::Found;
-use super::pursuit::attractors;
-use super::search::Search;
-use super::{Control, StudyError};
-use crate::model::{Model, ModelError};
+use crate::attractor::Found;
+use crate::pursuit::attractors;
+use crate::search::Search;
+use crate::subject::Subject;
+use crate::{Control, StudyError};
 
 /// A regular plane of pixels, numbered row by row: pixel (column, row) is `row * columns + column`.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,17 +43,18 @@ impl Grid {
 ///
 /// # Errors
 /// As [`attractors`].
-pub fn map<F, E>(
+pub fn map<S, F, E>(
     grid: &Grid,
     pixels: impl IntoIterator<Item = usize, IntoIter: Send>,
     model_at: F,
     search: &Search,
     control: &Control,
-    sink: impl FnMut(usize, Found) -> Result<(), E> + Send,
+    sink: impl FnMut(usize, Found<S::NoModel>) -> Result<(), E> + Send,
 ) -> Result<(), E>
 where
-    F: Fn(f64, f64) -> Result<(Model, Point), ModelError> + Sync,
-    E: From<StudyError> + Send,
+    F: Fn(f64, f64) -> Result<(S, Point), S::NoModel> + Sync,
+    E: From<StudyError<S::NoModel>> + Send,
+    S: Subject,
 {
     let start_at = |pixel| {
         let (x, y) = grid.at(pixel);
