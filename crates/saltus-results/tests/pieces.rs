@@ -154,10 +154,10 @@ fn other_work_is_refused_and_told_what_differs() {
     let manifest = fs::read_to_string(home.path().join(MANIFEST)).unwrap();
     fs::write(
         home.path().join(MANIFEST),
-        manifest.replace("version\": 1", "version\": 2"),
+        manifest.replace("version\": 2", "version\": 3"),
     )
     .unwrap();
-    assert!(refusal(&WORK).contains("their format is 2, not 1"));
+    assert!(refusal(&WORK).contains("their format is 3, not 2"));
     fs::write(home.path().join(MANIFEST), "{").unwrap();
     assert!(refusal(&WORK).contains("cannot be read"));
     fs::write(home.path().join(MANIFEST), manifest).unwrap();

@@ -9,7 +9,7 @@
 use crate::attractor::{Attractor, Range};
 use saltus_orbits::MotionKind;
 
-/// Samples that differ by no more than this (eta) may be of one cycle; twice what
+/// Samples that differ by no more than this may be of one cycle; twice what
 /// a slow transient is allowed to leave of each, and as much again.
 const SAME: f64 = 4e-3;
 

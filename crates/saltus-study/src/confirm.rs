@@ -13,10 +13,10 @@ use crate::recording::rounded;
 use crate::subject::Subject;
 use crate::{Control, place, point, stroboscopic};
 
-/// A motion that comes back within this (eta) may be near a cycle.
+/// A motion that comes back within this may be near a cycle.
 const NEAR: f64 = 0.1;
 
-/// A motion this near (eta) is on the cycle: its own integration is that good, and no better.
+/// A motion this near is on the cycle: its own integration is that good, and no better.
 const ON: f64 = 1e-6;
 
 /// Multipliers are known to some 1e-8 (test `the_product_of_the_multipliers_is_liouvilles`).
@@ -108,7 +108,7 @@ pub(crate) fn beside<S: Subject>(model: &S, orbit: &Orbit) -> Point {
 
 /// Distances of a motion from a cycle, at the same phases.
 struct Distances {
-    /// The largest distance (eta) in each quarter of the samples, the last first.
+    /// The largest distance in each quarter of the samples, the last first.
     blocks: [f64; 4],
     /// Samples in each.
     length: usize,

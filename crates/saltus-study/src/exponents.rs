@@ -7,8 +7,8 @@ use crate::orbits::stroboscopic;
 use crate::subject::Subject;
 use crate::{Control, Outcome, settle};
 
-/// Periods in which the columns turn into their directions, before anything is recorded. Plate modes lose
-/// a tenth of their amplitude per period, so what is left of a wrong direction is 1e-5.
+/// Periods in which the columns turn into their directions, before anything is recorded. Where amplitudes lose
+/// a tenth per period, what is left of a wrong direction is 1e-5.
 const ALIGNMENT: u64 = 100;
 
 /// The exponents along a motion, per forcing period.

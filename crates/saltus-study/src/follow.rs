@@ -29,7 +29,7 @@ use saltus_hybrid::{IntegrateError, Point};
 /// The attractors of `model`, as the starts lead to them.
 ///
 /// # Errors
-/// [`StudyError::NoSection`] for a plate without people, [`StudyError::Integrate`] for options out of range
+/// [`StudyError::NoSection`] for a subject without channels, [`StudyError::Integrate`] for options out of range
 /// or when stopped.
 pub fn census<S: Subject>(
     model: &S,
@@ -65,7 +65,7 @@ where
 {
     let mut places = Vec::with_capacity(values.len());
     for &value in values {
-        // a plate of many terms takes a while to prepare
+        // a large system takes a while to prepare
         if control.stop.load(Ordering::Relaxed) {
             return Err(IntegrateError::Interrupted.into());
         }

@@ -73,7 +73,7 @@ where
 {
     // In an order of their own, whatever threads found them.
     chaotic.sort_by_key(|one| one.0);
-    // what chaos does to floor and people is known by now, and to read it off each step takes longer than the steps
+    // what is seen of chaos is known by now, and to read it off each step takes longer than the steps
     let search = Search {
         transient: search.watch,
         record: 1,

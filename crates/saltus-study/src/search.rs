@@ -8,7 +8,7 @@ pub struct Search {
     /// Periods recorded of a motion that has not surely settled before.
     pub record: u64,
     /// Whether the transient ends as soon as the motion has surely settled. The answer is the same within
-    /// 1e-6 eta; without it each start takes all its periods.
+    /// 1e-6; without it each start takes all its periods.
     pub early_stop: bool,
     /// Forcing periods, at most, over which the largest exponent of a motion without a period is followed, to
     /// say what it is. 0 leaves it at [`MotionKind::NotPeriodic`](saltus_orbits::MotionKind::NotPeriodic).
@@ -23,9 +23,9 @@ pub struct Search {
 }
 
 impl Default for Search {
-    /// 400 periods: the paper's plate modes lose a tenth of their amplitude per period. 64 recorded show
+    /// 400 periods: what loses a tenth of its amplitude per period is gone by then. 64 recorded show
     /// each period up to 32 twice. 2000 tell an exponent of 0.02 from zero. 500 more are about what it takes to find
-    /// chaos, and cost less, since they need neither its tangent nor what it does to floor and people.
+    /// chaos, and cost less, since they need neither its tangent nor its peaks.
     fn default() -> Self {
         Self {
             transient: 400,

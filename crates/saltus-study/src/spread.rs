@@ -2,7 +2,7 @@
 //!
 //! The first 2^m points of the sequence fill a box more evenly than independent ones, so small basins are met
 //! sooner and shares come out closer. Unlike multiples of an irrational number it stays even in the many
-//! dimensions of a plate with many terms, and it is integer arithmetic: the same starts on every machine.
+//! dimensions of a large system, and it is integer arithmetic: the same starts on every machine.
 
 /// Length of the sequence, and its dimensions.
 const LENGTH: usize = 1 << 16;
