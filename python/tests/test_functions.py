@@ -199,14 +199,14 @@ def test_a_formula_of_one_mode_is_not_asked_in_others() -> None:
         (lambda x: 1.0 / x, "a division by"),
         (lambda x: numpy.sqrt(x), "a root or power of"),
         (lambda x: x**-0.5, "a root or power of"),
-        (lambda x: numpy.arcsin(2.0 - x), "root or power"),
+        (lambda x: numpy.arcsin(2.0 - 0.5 * x), "root or power"),
     ],
 )
 def test_out_of_its_domain_a_member_ends_alone_and_says_by_what(formula: Any, reason: str) -> None:
     x, y = states("x", "y")
     system = System([x, y], [-1.0, formula(x)], interval=2.0)
-    run = integrate(system, [[1.0, 0.0], [2.5, 0.0]][: 1 if "2.0" in reason else 2], 1)
-    assert run.status[0] == "out-of-domain"
+    run = integrate(system, [[1.0, 0.0], [4.5, 0.0]], 1)
+    assert list(run.status) == ["out-of-domain", "completed"]
     assert reason in run.reason[0]
     assert np.isfinite(run.end[0]).all()
 

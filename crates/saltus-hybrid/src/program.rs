@@ -102,8 +102,8 @@ pub(crate) enum Operation {
         weights: usize,
         extra: Vec<(usize, usize, usize)>,
     },
-    /// Where the coefficient `active` is 0, in modes in which nothing needs the result, this and the next two operate
-    /// on numbers that do no harm.
+    /// The first over the second. In modes in which nothing needs the result the coefficient `active` is 0: this and the
+    /// next two then operate on numbers that do no harm.
     Quotient {
         dividend: Node,
         divisor: Node,

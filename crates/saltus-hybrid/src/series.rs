@@ -262,51 +262,12 @@ fn run<A: Arith, const M: usize>(
                 let from = k * stride + slot;
                 now[*out..out + count].copy_from_slice(&series.kept[from..from + count]);
             }
-            Op::Quotient {
-                out,
-                own,
-                dividend,
-                divisor,
-                active,
-            } => {
+            Op::Quotient { out, .. } | Op::Power { out, .. } | Op::Function { out, .. } => {
                 let orders = Orders {
                     cells: &series.kept,
                     stride,
                 };
-                let (active, dividend) = (&stream[*active], &now[*dividend % M]);
-                let places = [*divisor, *own];
-                now[*out % M] = recurrence::quotient(arith, orders, active, dividend, places, k);
-            }
-            Op::Power {
-                out,
-                own,
-                base,
-                exponent,
-                active,
-            } => {
-                let orders = Orders {
-                    cells: &series.kept,
-                    stride,
-                };
-                let (active, exponent) = (&stream[*active], &stream[*exponent]);
-                let places = [*base, *own];
-                now[*out % M] = recurrence::power(arith, orders, active, exponent, places, k);
-            }
-            Op::Function {
-                function,
-                minus,
-                out,
-                of,
-                slope,
-                active,
-            } => {
-                let orders = Orders {
-                    cells: &series.kept,
-                    stride,
-                };
-                let places = [*of, *slope];
-                let (active, which) = (&stream[*active], (*function, *minus));
-                now[*out % M] = recurrence::function(arith, orders, active, which, places, k);
+                now[*out % M] = by_recurrence(arith, &step.op, stream, now, orders, k);
             }
             Op::Cubic(index) => {
                 let cubic = &structure.cubics[*index];
@@ -316,6 +277,52 @@ fn run<A: Arith, const M: usize>(
         for &(node, slot) in &structure.keeps[step.keeps.0..step.keeps.1] {
             series.kept[k * stride + slot as usize] = now[node as usize % M];
         }
+    }
+}
+
+/// Order k of a quotient, power or function; zero for other operations.
+#[cfg_attr(not(unoptimised), inline(always))]
+fn by_recurrence<A: Arith>(
+    arith: A,
+    op: &Op,
+    stream: &[A::Cell],
+    now: &[A::Cell],
+    orders: Orders<'_, A::Cell>,
+    k: usize,
+) -> A::Cell {
+    match *op {
+        Op::Quotient {
+            own,
+            dividend,
+            divisor,
+            active,
+            ..
+        } => {
+            let (active, dividend) = (&stream[active], &now[dividend]);
+            recurrence::quotient(arith, orders, active, dividend, [divisor, own], k)
+        }
+        Op::Power {
+            own,
+            base,
+            exponent,
+            active,
+            ..
+        } => {
+            let (active, exponent) = (&stream[active], &stream[exponent]);
+            recurrence::power(arith, orders, active, exponent, [base, own], k)
+        }
+        Op::Function {
+            function,
+            minus,
+            of,
+            slope,
+            active,
+            ..
+        } => {
+            let (active, which) = (&stream[active], (function, minus));
+            recurrence::function(arith, orders, active, which, [of, slope], k)
+        }
+        _ => A::Cell::default(),
     }
 }
 

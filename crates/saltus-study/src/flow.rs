@@ -44,8 +44,16 @@ impl Flow {
     }
 
     /// The same, started with its units in these modes.
+    ///
+    /// # Panics
+    /// If there is not one for each unit.
     #[must_use]
     pub fn started_in(self, modes: &[Mode]) -> Self {
+        assert_eq!(
+            modes.len(),
+            self.system.unit_count(),
+            "a mode for each unit"
+        );
         Self {
             modes: modes.to_vec(),
             ..self
@@ -53,8 +61,16 @@ impl Flow {
     }
 
     /// The same with these states in its section.
+    ///
+    /// # Panics
+    /// If there is no such state.
     #[must_use]
     pub fn showing(self, states: &[usize]) -> Self {
+        let known = self.system.declared_len();
+        assert!(
+            states.iter().all(|&state| state < known),
+            "states {states:?} of {known}"
+        );
         Self {
             channels: states.to_vec(),
             ..self
@@ -63,8 +79,16 @@ impl Flow {
 
     /// The same with a size of each declared state: a thousandth of it is a small difference. Two states are the same
     /// if they agree in all states by that measure.
+    ///
+    /// # Panics
+    /// If there is not one positive number for each declared state.
     #[must_use]
     pub fn scaled(self, scales: &[f64]) -> Self {
+        let sizes = scales.iter().all(|&size| size > 0.0 && size.is_finite());
+        assert!(
+            sizes && scales.len() == self.system.declared_len(),
+            "scales {scales:?}: one positive number for each declared state is needed"
+        );
         Self {
             scales: scales.to_vec(),
             ..self
@@ -72,8 +96,15 @@ impl Flow {
     }
 
     /// The same with the modes of each of the first units that count as contact.
+    ///
+    /// # Panics
+    /// If there are more than units.
     #[must_use]
     pub fn touching(self, contacts: &[&[Mode]]) -> Self {
+        assert!(
+            contacts.len() <= self.system.unit_count(),
+            "contacts are units"
+        );
         Self {
             contacts: contacts.iter().map(|modes| modes.to_vec()).collect(),
             ..self

@@ -1,4 +1,4 @@
-//! What is seen of a motion, period by period.
+//! Record of what is seen of a motion, period by period.
 
 use saltus_hybrid::{End, Point, Sample, Segment, Step, Task, integrate};
 use saltus_orbits::{MapPoint, MotionKind, Orbit};

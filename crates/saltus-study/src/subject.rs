@@ -1,4 +1,4 @@
-//! What questions are asked of: a system, and what of it is seen.
+//! The subject of questions: a system, and what of it is seen.
 
 use saltus_hybrid::{Mode, Options, Point, System};
 

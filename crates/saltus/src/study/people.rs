@@ -183,7 +183,7 @@ impl Bodies for saltus_study::Settled {
     }
 }
 
-/// What a motion of people does to them and to the floor.
+/// Effects of a motion on people and floor.
 pub trait Effects {
     /// Largest absolute vertical acceleration of the floor under the first body, base motion included (m/s^2); 0
     /// without people.
